@@ -16,7 +16,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/scenes/mesh_lists.h"
+#include "bench/meshes/mesh_lists.h"
 #include "bench/support/raw_lists.h"
 #include "core/named/named_detector.h"
 #include "core/search/tracing.h"
@@ -30,7 +30,7 @@ using bench::support::take_list, bench::support::take_text;
 static_assert(tracing, "this program is for a core that is compiled with TOUCHMARK_TRACING");
 
 /// More of one kind are left out, those looked at last.
-constexpr std::size_t most_of_a_kind = 300;
+constexpr std::size_t max_of_a_kind = 300;
 
 using Question = std::array<double, 5>;  // centre, radius, reach
 
@@ -65,9 +65,9 @@ Json json_of(std::uint32_t number) { return number; }
 template <class T>
 void add(Json& json, const char* name, const std::vector<T>& items) {
   if (items.empty()) return;
-  for (std::size_t i = 0; i < std::min(items.size(), most_of_a_kind); ++i)
+  for (std::size_t i = 0; i < std::min(items.size(), max_of_a_kind); ++i)
     json[name].push_back(json_of(items[i]));
-  if (items.size() > most_of_a_kind) json["left_out"][name] = items.size() - most_of_a_kind;
+  if (items.size() > max_of_a_kind) json["left_out"][name] = items.size() - max_of_a_kind;
 }
 
 Json json_of(std::size_t step, const Visits& visited, const TriangleMesh& mesh) {
@@ -116,7 +116,7 @@ Json visits_of(const NamedDetector& detector, const TriangleMesh& mesh, const Tr
 }
 
 Json taken_and_traced() {
-  const TriangleMesh mesh = bench::scenes::take_mesh(stdin);
+  const TriangleMesh mesh = bench::meshes::take_mesh(stdin);
   Trace trace;
   trace.query = take_text(stdin);
   trace.steps = take_list<Question>(stdin);

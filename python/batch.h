@@ -27,9 +27,9 @@ struct Effort {
 
 /// Returns how many threads are of use; to start one takes some tens of microseconds.
 inline std::size_t thread_count(std::size_t asked, std::size_t points) {
-  constexpr std::size_t least_points_a_thread = 256;
+  constexpr std::size_t min_points_a_thread = 256;
   if (asked == 0) asked = std::max(1u, std::thread::hardware_concurrency());
-  return std::clamp(asked, std::size_t{1}, std::max(std::size_t{1}, points / least_points_a_thread));
+  return std::clamp(asked, std::size_t{1}, std::max(std::size_t{1}, points / min_points_a_thread));
 }
 
 /// Calls ask(i, session) for every i below `count`, with sessions that begin_session() returned; false where

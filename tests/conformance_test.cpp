@@ -1,4 +1,4 @@
-// Every contestant of the roster on every small scene, ours with every option, judged by the oracle. Those
+// Every contestant of the roster on every small mesh, ours with every option, judged by the oracle. Those
 // that claim exactness must keep their word; ours must give brute force's bits besides. Rivals, in the forms
 // that are compared by default, answer in processes of their own.
 #include <algorithm>
@@ -20,7 +20,7 @@
 #include "bench/contestants/roster.h"
 #include "bench/oracle/judge.h"
 #include "core/brute_force/brute_force.h"
-#include "tests/conformance_scenes.h"
+#include "tests/conformance_meshes.h"
 
 namespace touchmark::bench {
 namespace {
@@ -50,10 +50,10 @@ std::vector<Sweep> sweeps_of(const Part& part) {
   return sweeps;
 }
 
-/// A scene with its truth, found out once for all contestants.
+/// A mesh with its truth, found out once for all contestants.
 class Exam {
  public:
-  explicit Exam(const std::string& scene) : mesh_(scenes::load_scene(scene)), oracle_(mesh_) {
+  explicit Exam(const std::string& mesh_name) : mesh_(meshes::load_mesh(mesh_name)), oracle_(mesh_) {
     const std::vector<Vec3> centers = adversarial_centers(mesh_, affordable(mesh_));
     for (const Vec3& center : centers) truths_.push_back(oracle_.solve(center));
     const double radius = 0.005 * mesh_.diagonal();
@@ -353,14 +353,14 @@ TEST_P(Conformance, RivalsThatClaimExactnessKeepTheirWord) {
   }
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& scene) {
-  std::string name = scene.param;
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
   for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Conformance, testing::ValuesIn(conformance_scenes()), test_name);
+INSTANTIATE_TEST_SUITE_P(Meshes, Conformance, testing::ValuesIn(conformance_meshes()), test_name);
 
 }  // namespace
 }  // namespace touchmark::bench

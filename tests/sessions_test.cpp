@@ -13,7 +13,7 @@
 
 #include "bench/contestants/contestant.h"
 #include "bench/workload/answer.h"
-#include "tests/conformance_scenes.h"
+#include "tests/conformance_meshes.h"
 #include "tests/own_forms.h"
 
 namespace touchmark {
@@ -78,7 +78,7 @@ std::size_t first_difference(const std::vector<Answer>& a, const std::vector<Ans
 class Sessions : public testing::TestWithParam<std::string> {};
 
 TEST_P(Sessions, GiveTheBitsOfBruteForceFreshUsedAndInThreads) {
-  const TriangleMesh mesh = bench::scenes::load_scene(GetParam());
+  const TriangleMesh mesh = bench::meshes::load_mesh(GetParam());
   // An eighth, since each is asked up to eight times of some twenty detectors.
   const Questions questions(adversarial_centers(mesh, affordable(mesh) / 8), 0.005 * mesh.diagonal());
   std::vector<Answer> expected;
@@ -99,14 +99,14 @@ TEST_P(Sessions, GiveTheBitsOfBruteForceFreshUsedAndInThreads) {
   }
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& scene) {
-  std::string name = scene.param;
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
   for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Sessions, testing::ValuesIn(conformance_scenes()), test_name);
+INSTANTIATE_TEST_SUITE_P(Meshes, Sessions, testing::ValuesIn(conformance_meshes()), test_name);
 
 }  // namespace
 }  // namespace touchmark

@@ -37,7 +37,7 @@ constexpr double beyond_band = 2;
 
 /// Voxels along the mesh at most: places are given in single precision, which tells 2^10 of them apart in a
 /// voxel there.
-constexpr double most_along = 0x1p14;
+constexpr double max_along = 0x1p14;
 
 openvdb::Vec3f single(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -83,12 +83,12 @@ Division divided(const TriangleMesh& mesh, const OpenVdbDetector::Options& optio
   const Division division{bounds, bounds.center(), voxel, 1 / voxel,
                           std::max<double>(openvdb::LEVEL_SET_HALF_WIDTH, in_band)};
 
-  constexpr double most_bytes = 0x1p32;
+  constexpr double max_bytes = 0x1p32;
   const Vec3 along = bounds.extent() / voxel + Vec3::Constant(2 * (division.band + beyond_band));
   const double in_box = along.prod(),
                about_surface = 2 * (division.band + beyond_band) * (area(mesh) / voxel) / voxel;
   const double bytes = sizeof(float) * std::min(in_box, about_surface);
-  if (!(along.maxCoeff() <= most_along) || !(bytes <= most_bytes))
+  if (!(along.maxCoeff() <= max_along) || !(bytes <= max_bytes))
     throw std::invalid_argument("openvdb: voxel is " + std::to_string(voxel) + " mesh units, so small that " +
                                 std::to_string(along.maxCoeff()) + " of them lie along the mesh and take " +
                                 std::to_string(bytes / 0x1p30) + " GiB; at most are 16384, and 4 GiB");
@@ -250,7 +250,7 @@ Accuracy OpenVdbDetector::accuracy() const noexcept {
   // and its polygon is farther than the nearest by that way at most, there and back.
   const double voxels = model_->polygons ? std::sqrt(3) : std::sqrt(3) / 2;
   // Places and distances in single precision, within as many voxels as may lie along the mesh.
-  constexpr double rounding = 8 * 0x1p-24 * most_along;
+  constexpr double rounding = 8 * 0x1p-24 * max_along;
   return {Guarantee::approximate, 0, (voxels + rounding) * model_->division.voxel};
 }
 

@@ -26,8 +26,8 @@ ContestantInfo vtk_entry() {
                   {"cells", OptionKind::count, {}, "0", "of static: triangles a bin; 0: VTK's own 10"},
                   query_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    constexpr std::size_t most_cells = 1'000'000;
-    if (values.count("cells") > most_cells) throw std::invalid_argument("cells is more than a million");
+    constexpr std::size_t max_cells = 1'000'000;
+    if (values.count("cells") > max_cells) throw std::invalid_argument("cells is more than a million");
     const VtkDetector::Options options{chosen(values, "locator", locators),
                                        static_cast<std::uint32_t>(values.count("cells")), asking(values)};
     return contestant_of_module(module, mesh, options);

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/meshes/meshes.h"
 #include "bench/results/system_info.h"
 #include "bench/results/validation/json_schema.h"
 #include "bench/results/validation/located_json.h"
-#include "bench/scenes/scenes.h"
 #include "bench/support/numbers.h"
 #include "bench/support/text_file.h"
 #include "bench/trajectories/trajectories.h"
@@ -71,49 +71,50 @@ auto motion_texts(Motion& motion) {
                     std::pair{"rate", &motion.rate}};
 }
 
-Json json_of(const SweepScene& scene) {
+Json json_of(const BatchMesh& planned) {
   Json jobs = Json::array();
-  for (const SweepJob& job : scene.jobs) jobs.push_back({{"id", job.id}, {"detector", job.detector}});
-  Json json{{"mesh", scene.mesh},
-            {"normalize", scene.normalize},
-            {"mesh_fnv1a", support::hex(scene.mesh_hash)},
-            {"trajectory", scene.trajectory},
-            {"course_fnv1a", support::hex(scene.trace_hash)},
-            {"steps", scene.steps},
-            {"seed", scene.seed},
-            {"radius", scene.radius},
-            {"reach", scene.reach},
-            {"query", workload::name_of(scene.query)},
+  for (const BatchJob& job : planned.jobs) jobs.push_back({{"id", job.id}, {"detector", job.detector}});
+  Json json{{"mesh", planned.mesh},
+            {"normalize", planned.normalize},
+            {"mesh_fnv1a", support::hex(planned.mesh_hash)},
+            {"trajectory", planned.trajectory},
+            {"course_fnv1a", support::hex(planned.trace_hash)},
+            {"steps", planned.steps},
+            {"seed", planned.seed},
+            {"radius", planned.radius},
+            {"reach", planned.reach},
+            {"query", workload::name_of(planned.query)},
             {"jobs", jobs}};
-  for (const auto& [key, value] : motion_texts(scene.motion))
+  for (const auto& [key, value] : motion_texts(planned.motion))
     if (!value->empty()) json[key] = *value;
   return json;
 }
 
-SweepScene scene_of(const nlohmann::json& json) {
-  SweepScene scene;
-  scene.mesh = json.at("mesh");
-  scene.normalize = json.at("normalize");
-  scene.mesh_hash = hash_in(json.at("mesh_fnv1a"));
-  scene.trajectory = json.at("trajectory");
-  scene.trace_hash = hash_in(json.at("course_fnv1a"));
-  scene.steps = json.at("steps");
-  scene.seed = json.at("seed");
-  scene.radius = json.at("radius");
-  scene.reach = json.at("reach");
-  scene.query = workload::query_named(json.at("query").get<std::string>()).value();
-  for (const auto& [key, value] : motion_texts(scene.motion)) *value = json.value(key, "");
-  for (const nlohmann::json& job : json.at("jobs")) scene.jobs.push_back({job.at("id"), job.at("detector")});
-  return scene;
+BatchMesh batch_mesh_of(const nlohmann::json& json) {
+  BatchMesh planned;
+  planned.mesh = json.at("mesh");
+  planned.normalize = json.at("normalize");
+  planned.mesh_hash = hash_in(json.at("mesh_fnv1a"));
+  planned.trajectory = json.at("trajectory");
+  planned.trace_hash = hash_in(json.at("course_fnv1a"));
+  planned.steps = json.at("steps");
+  planned.seed = json.at("seed");
+  planned.radius = json.at("radius");
+  planned.reach = json.at("reach");
+  planned.query = workload::query_named(json.at("query").get<std::string>()).value();
+  for (const auto& [key, value] : motion_texts(planned.motion)) *value = json.value(key, "");
+  for (const nlohmann::json& job : json.at("jobs"))
+    planned.jobs.push_back({job.at("id"), job.at("detector")});
+  return planned;
 }
 
 }  // namespace
 
 std::string Manifest::json() const {
   Json all = Json::array();
-  for (const SweepScene& scene : scenes) all.push_back(json_of(scene));
+  for (const BatchMesh& planned : meshes) all.push_back(json_of(planned));
   Json json{{"schema", manifest_schema}, {"version", version}, {"effort", effort}};
-  for (const SweepPlugin& plugin : plugins)
+  for (const BatchPlugin& plugin : plugins)
     json["plugins"].push_back({{"file", plugin.file}, {"fnv1a", support::hex(plugin.hash)}});
   json["scenes"] = all;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
@@ -128,17 +129,18 @@ Manifest Manifest::read(const std::string& path) {
   Manifest manifest{document->value.at("version"), document->value.at("effort"), {}, {}};
   for (const nlohmann::json& plugin : document->value.value("plugins", nlohmann::json::array()))
     manifest.plugins.push_back({plugin.at("file"), hash_in(plugin.at("fnv1a"))});
-  for (const nlohmann::json& scene : document->value.at("scenes")) manifest.scenes.push_back(scene_of(scene));
+  for (const nlohmann::json& planned : document->value.at("scenes"))
+    manifest.meshes.push_back(batch_mesh_of(planned));
   return manifest;
 }
 
 std::size_t Manifest::jobs() const noexcept {
   std::size_t count = 0;
-  for (const SweepScene& scene : scenes) count += scene.jobs.size();
+  for (const BatchMesh& planned : meshes) count += planned.jobs.size();
   return count;
 }
 
-SweepPlugin plugin_of(const std::string& file) {
+BatchPlugin plugin_of(const std::string& file) {
   workload::ContentHash hash;
   hash.add(support::read_text_file(file));
   return {file, hash.value()};
@@ -149,12 +151,12 @@ std::string identity_of(const contestants::ContestantSpec& contestant) {
   return contestant.text() + "@" + support::hex(plugin_of(contestant.plugin).hash);
 }
 
-std::string job_id(const SweepScene& scene, const std::string& detector, const std::string& effort,
+std::string job_id(const BatchMesh& planned, const std::string& detector, const std::string& effort,
                    const std::string& version) {
   workload::ContentHash hash;
-  for (const std::uint64_t number : {scene.mesh_hash, scene.trace_hash, scene.seed})
+  for (const std::uint64_t number : {planned.mesh_hash, planned.trace_hash, planned.seed})
     hash.add(support::hex(number));
-  for (const std::string& text : {std::string(workload::name_of(scene.query)), detector, effort, version})
+  for (const std::string& text : {std::string(workload::name_of(planned.query)), detector, effort, version})
     hash.add(text);
   return support::hex(hash.value());
 }
@@ -166,16 +168,16 @@ measurement::Effort effort_named(const std::string& name) {
   throw std::invalid_argument(fmt::format("effort \"{}\" is not one of full, quick, accuracy", name));
 }
 
-workload::Workload workload_of(const SweepScene& scene, const contestants::Roster& roster) {
+workload::Workload workload_of(const BatchMesh& planned, const contestants::Roster& roster) {
   contestants::Selectors selectors;
-  selectors.radius = scene.radius;
-  selectors.reach = scene.reach;
-  selectors.seed = std::to_string(scene.seed);
-  selectors.steps = std::to_string(scene.steps);
-  if (!trajectories::is_generated(scene.trajectory)) selectors.motion = scene.motion;
-  return workload::make_workload(results::without_directories(scene.mesh),
-                                 scenes::load_mesh(scene.mesh, scene.normalize),
-                                 contestants::check(selectors, roster), {scene.trajectory}, scene.steps);
+  selectors.radius = planned.radius;
+  selectors.reach = planned.reach;
+  selectors.seed = std::to_string(planned.seed);
+  selectors.steps = std::to_string(planned.steps);
+  if (!trajectories::is_generated(planned.trajectory)) selectors.motion = planned.motion;
+  return workload::make_workload(results::without_directories(planned.mesh),
+                                 meshes::load_mesh(planned.mesh, planned.normalize),
+                                 contestants::check(selectors, roster), {planned.trajectory}, planned.steps);
 }
 
 }  // namespace touchmark::bench::batch

@@ -14,13 +14,13 @@ namespace touchmark::bench::batch {
 
 inline constexpr int manifest_schema = 1;
 
-struct SweepJob {
+struct BatchJob {
   std::string id;  ///< see job_id; also the name of its file
   std::string detector;
 };
 
 /// What all rivals are asked alike. Its jobs are run in one process, so that their times can be compared.
-struct SweepScene {
+struct BatchMesh {
   std::string mesh;  ///< as --mesh takes it
   bool normalize = false;
   std::uint64_t mesh_hash = 0;
@@ -31,12 +31,12 @@ struct SweepScene {
   std::string radius;  ///< as --radius takes it
   std::string reach;   ///< as --reach takes it; empty: the radius
   workload::Query query = workload::Query::nearest;
-  std::vector<SweepJob> jobs;
+  std::vector<BatchJob> jobs;
   contestants::MotionSelectors motion = {};  ///< as --columns, --motion-scale and --rate take it
 };
 
 /// A contestant that is none of the program's own.
-struct SweepPlugin {
+struct BatchPlugin {
   std::string file;  ///< as --plugin takes it
   std::uint64_t hash = 0;
 };
@@ -44,8 +44,8 @@ struct SweepPlugin {
 struct Manifest {
   std::string version;  ///< the version of the program that planned it
   std::string effort;   ///< full, quick or accuracy
-  std::vector<SweepScene> scenes;
-  std::vector<SweepPlugin> plugins = {};
+  std::vector<BatchMesh> meshes;
+  std::vector<BatchPlugin> plugins = {};
 
   std::string json() const;
   /// Throws std::invalid_argument for a file that cannot be read or is no manifest, naming line and value.
@@ -54,21 +54,21 @@ struct Manifest {
 };
 
 /// Returns the plug-in of a file with the hash of what is in it now. Throws std::invalid_argument.
-SweepPlugin plugin_of(const std::string& file);
+BatchPlugin plugin_of(const std::string& file);
 
 /// Returns what a job is called by: the contestant's text, for a plug-in with the hash of its file.
 std::string identity_of(const contestants::ContestantSpec& contestant);
 
 /// Sixteen hexadecimal digits: a hash of the mesh's and the trace's content, the seed, the query, the
 /// detector's identity, the effort and the version. The same wherever and whenever it is computed.
-std::string job_id(const SweepScene& scene, const std::string& detector, const std::string& effort,
+std::string job_id(const BatchMesh& planned, const std::string& detector, const std::string& effort,
                    const std::string& version);
 
 /// Throws std::invalid_argument.
 measurement::Effort effort_named(const std::string& name);
 
-/// Mesh and trace of a scene, to be hashed while planning or to be run. Throws std::invalid_argument or
-/// MeshError.
-workload::Workload workload_of(const SweepScene& scene, const contestants::Roster& roster);
+/// Mesh and trace of a planned mesh, to be hashed while planning or to be run. Throws std::invalid_argument
+/// or MeshError.
+workload::Workload workload_of(const BatchMesh& planned, const contestants::Roster& roster);
 
 }  // namespace touchmark::bench::batch

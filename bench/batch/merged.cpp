@@ -43,8 +43,8 @@ std::vector<std::string> sorting_key(const FoundJob& job) {
 
 std::map<std::string, std::size_t> positions_of(const Manifest& manifest) {
   std::map<std::string, std::size_t> positions;
-  for (const SweepScene& scene : manifest.scenes) {
-    for (const SweepJob& job : scene.jobs) positions.emplace(job.id, positions.size());
+  for (const BatchMesh& planned : manifest.meshes) {
+    for (const BatchJob& job : planned.jobs) positions.emplace(job.id, positions.size());
   }
   return positions;
 }

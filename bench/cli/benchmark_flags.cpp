@@ -14,7 +14,7 @@ namespace touchmark::bench::cli {
 namespace {
 
 constexpr std::size_t max_repetitions = 10000;
-constexpr double longest_repetition_s = 3600;
+constexpr double max_repetition_s = 3600;
 
 /// "--name=value" to the pair; a flag alone has the value "true", as in the library.
 std::pair<std::string, std::string> split_flag(const std::string& argument) {
@@ -40,9 +40,8 @@ double parse_min_time(const std::string& name, const std::string& value) {
   const std::string_view number =
       std::string_view(value).substr(0, value.ends_with('s') ? value.size() - 1 : value.size());
   const auto seconds = support::parse_number(number);
-  if (!seconds || !(*seconds > 0) || *seconds > longest_repetition_s) {
-    throw bad_value(name, value,
-                    fmt::format("a time in seconds, above 0 and at most {}", longest_repetition_s));
+  if (!seconds || !(*seconds > 0) || *seconds > max_repetition_s) {
+    throw bad_value(name, value, fmt::format("a time in seconds, above 0 and at most {}", max_repetition_s));
   }
   return *seconds;
 }

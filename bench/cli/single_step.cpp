@@ -54,7 +54,7 @@ std::string rows_of_step(const contestants::Roster& roster, const workload::Work
   until.trajectories = {workload.trajectories[task.trace]};
   until.traces.assign(
       1, std::vector<workload::Step>(trace.begin(), trace.begin() + static_cast<std::ptrdiff_t>(step) + 1));
-  if (workload.scene) until.schedules = {bodies::beginning(workload.schedules[task.trace], step + 1)};
+  if (workload.scene) until.schedules = {scenes::beginning(workload.schedules[task.trace], step + 1)};
   const workers::Task all{0, task.query, step + 1};
   const workers::SharedArena arena(until, workers);
   workers::ContestantProcess process(arena, spec, roster.find(spec.name).worker_program(spec.values));

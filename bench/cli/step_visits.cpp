@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "bench/scenes/mesh_lists.h"
+#include "bench/meshes/mesh_lists.h"
 #include "bench/support/beside_this_program.h"
 #include "bench/support/failures.h"
 #include "bench/support/raw_lists.h"
@@ -46,7 +46,7 @@ void print_visits(const workload::Workload& workload, workload::Query query, con
     throw std::invalid_argument(
         "touchmark-tracer is missing; scripts/build-program touchmark-tracer builds it");
   const support::File input = support::temporary_file();
-  scenes::put_mesh(input.get(), workload.mesh);
+  meshes::put_mesh(input.get(), workload.mesh);
   put_text(input.get(), workload::name_of(query));
   put_trace(input.get(), trace);
   put_text(input.get(), detector);

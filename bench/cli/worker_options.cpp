@@ -20,11 +20,11 @@ workers::WorkerOptions worker_options(const WorkerSelectors& selectors) {
   workers::WorkerOptions options;
   options.show_output = selectors.show_output;
   if (selectors.timeout.empty()) return options;
-  constexpr double longest_s = 86400;
+  constexpr double max_s = 86400;
   const std::optional<double> seconds = support::parse_number(selectors.timeout);
-  if (!seconds || !(*seconds > 0) || *seconds > longest_s) {
+  if (!seconds || !(*seconds > 0) || *seconds > max_s) {
     throw std::invalid_argument(fmt::format(
-        "--timeout \"{}\" is not a time in seconds, above 0 and at most {}", selectors.timeout, longest_s));
+        "--timeout \"{}\" is not a time in seconds, above 0 and at most {}", selectors.timeout, max_s));
   }
   options.build_timeout = options.request_timeout =
       std::chrono::milliseconds(static_cast<std::chrono::milliseconds::rep>(*seconds * 1000) + 1);

@@ -265,7 +265,7 @@ std::unique_ptr<Contestant> Roster::build(const ContestantSpec& spec, const Tria
 }
 
 std::unique_ptr<Contestant> Roster::build(const ContestantSpec& spec,
-                                          const bodies::PlacedScene& scene) const {
+                                          const scenes::PlacedScene& scene) const {
   const ContestantInfo& contestant = find(spec.name);
   if (!contestant.built()) throw std::invalid_argument(contestant.name + " is not built into this program");
   if (!contestant.build_scene)

@@ -54,7 +54,7 @@ using BuildContestant = std::function<std::unique_ptr<Contestant>(const Triangle
 
 /// Builds a contestant over a scene of bodies.
 using BuildSceneContestant =
-    std::function<std::unique_ptr<Contestant>(const bodies::PlacedScene&, const OptionValues&)>;
+    std::function<std::unique_ptr<Contestant>(const scenes::PlacedScene&, const OptionValues&)>;
 
 /// The program beside this one that most contestants run in.
 inline constexpr const char* default_worker_program = "touchmark-worker";
@@ -173,7 +173,7 @@ class Roster {
   void prepare_to_build(const ContestantSpec& spec, std::size_t triangles) const;
   /// Throws what the contestant's build throws, or std::invalid_argument when it is not built in.
   std::unique_ptr<Contestant> build(const ContestantSpec& spec, const TriangleMesh& mesh) const;
-  std::unique_ptr<Contestant> build(const ContestantSpec& spec, const bodies::PlacedScene& scene) const;
+  std::unique_ptr<Contestant> build(const ContestantSpec& spec, const scenes::PlacedScene& scene) const;
 
  private:
   void sort();

@@ -55,7 +55,7 @@ concept KnownOnceBuilt = Detector<D> && requires(const D& detector, workload::Qu
 /// A detector over a scene: `stand_at` moves the bodies to where they are at a step of a schedule, and the
 /// session says which body the last answer is about.
 template <class D>
-concept StandsInSchedules = requires(D& detector, const bodies::ScheduleView* schedule,
+concept StandsInSchedules = requires(D& detector, const scenes::ScheduleView* schedule,
                                      const typename D::Session& session) {
   detector.stand_at(schedule, std::size_t{});
   { session.body } -> std::same_as<const std::uint32_t&>;

@@ -16,7 +16,7 @@
 #include "bench/contestants/build_notes.h"
 #include "bench/contestants/contestant_info.h"
 #include "bench/contestants/contestant_of.h"
-#include "bench/scenes/displaced.h"
+#include "bench/meshes/displaced.h"
 #include "core/search/threads/parallel.h"
 #include "core/sign/signed_detector.h"
 
@@ -62,7 +62,7 @@ D built(const TriangleMesh& mesh, const Options& options, const OptionValues& va
   if constexpr (Updates<D> && AnswersNearest<D>) {
     if (is_updated(values)) {
       constexpr std::size_t max_asked = 500;
-      D detector = D::build(scenes::displaced(mesh, 1), options);
+      D detector = D::build(meshes::displaced(mesh, 1), options);
       typename D::Session session;
       const std::span<const Vec3> vertices = mesh.vertices();
       for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / max_asked)

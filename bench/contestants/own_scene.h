@@ -22,7 +22,7 @@ class OwnScene {
   using Session = typename Scene<D>::Session;
 
   /// Builds the shapes of which a body is ever near a probe. Should a query need another one, it builds it.
-  OwnScene(const bodies::PlacedScene& placed, const OptionValues& values, const OptionsOf<D>& options) {
+  OwnScene(const scenes::PlacedScene& placed, const OptionValues& values, const OptionsOf<D>& options) {
     std::vector<ShapeId> shapes;
     std::size_t meshes = 0, built = 0;
     for (std::size_t i = 0; i < placed.shapes.size(); ++i) {
@@ -41,7 +41,7 @@ class OwnScene {
     }
     if (built < meshes)
       remark(fmt::format("{} of {} shapes are built: no probe comes near a body of another", built, meshes));
-    for (const bodies::PlacedScene::PlacedBody& body : placed.bodies)
+    for (const scenes::PlacedScene::PlacedBody& body : placed.bodies)
       ids_.push_back(scene_.add(shapes[body.shape], body.start));
   }
 
@@ -64,10 +64,10 @@ class OwnScene {
 
 template <Detector D>
 BuildSceneContestant build_own_scene(OptionsOf<D> options) {
-  return [options = std::move(options)](const bodies::PlacedScene& placed, const OptionValues& values) {
+  return [options = std::move(options)](const scenes::PlacedScene& placed, const OptionValues& values) {
     expect_options_of_scenes(values);
     return scene_contestant(
-        placed, [&](const bodies::PlacedScene& one) { return OwnScene<D>(one, values, options); });
+        placed, [&](const scenes::PlacedScene& one) { return OwnScene<D>(one, values, options); });
   };
 }
 

@@ -26,7 +26,7 @@ class LoopedScene {
  public:
   using Session = typename baselines::PosedShapes<D>::Session;
 
-  explicit LoopedScene(const bodies::PlacedScene& placed) : bodies_(posed(placed), {}) {}
+  explicit LoopedScene(const scenes::PlacedScene& placed) : bodies_(posed(placed), {}) {}
 
   void place(std::uint32_t body, const Pose& pose) { bodies_.place(body, pose); }
 
@@ -54,7 +54,7 @@ class MergedScene {
  public:
   using Session = typename D::Session;
 
-  explicit MergedScene(const bodies::PlacedScene& placed) : MergedScene(placed, merged(placed)) {}
+  explicit MergedScene(const scenes::PlacedScene& placed) : MergedScene(placed, merged(placed)) {}
 
   /// Bodies stand, so this is only told what it knows.
   void place(std::uint32_t, const Pose&) {}
@@ -75,10 +75,10 @@ class MergedScene {
   Accuracy accuracy() const noexcept { return baselines::with_poses(detector_.accuracy(), largest_); }
 
  private:
-  MergedScene(const bodies::PlacedScene& placed, const TriangleMesh& mesh)
+  MergedScene(const scenes::PlacedScene& placed, const TriangleMesh& mesh)
       : detector_(D::build(mesh, {})), largest_(baselines::largest_coordinate(mesh.bounds())) {
     std::uint32_t sum = 0;
-    for (const bodies::PlacedScene::PlacedBody& body : placed.bodies) {
+    for (const scenes::PlacedScene::PlacedBody& body : placed.bodies) {
       const TriangleMesh& shape = *placed.shapes[body.shape];
       first_.push_back(sum);
       sum += static_cast<std::uint32_t>(shape.size());
@@ -86,12 +86,12 @@ class MergedScene {
     }
   }
 
-  static TriangleMesh merged(const bodies::PlacedScene& placed) {
+  static TriangleMesh merged(const scenes::PlacedScene& placed) {
     expect_triangles(placed);
     if (placed.moves) throw std::invalid_argument("its triangles are one mesh, and the bodies move");
     std::vector<Vec3> vertices;
     std::vector<TriangleMesh::Corners> triangles;
-    for (const bodies::PlacedScene::PlacedBody& body : placed.bodies) {
+    for (const scenes::PlacedScene::PlacedBody& body : placed.bodies) {
       const TriangleMesh& shape = *placed.shapes[body.shape];
       const auto first = static_cast<std::uint32_t>(vertices.size());
       for (const Vec3& vertex : shape.vertices()) vertices.push_back(image(body.start, vertex));
@@ -132,9 +132,9 @@ ContestantInfo plain_scene_entry(std::string name, int rank, std::string summary
   info.build = [](const TriangleMesh&, const OptionValues&) -> std::unique_ptr<Contestant> {
     throw std::invalid_argument("it is of scenes of bodies: --scene");
   };
-  info.build_scene = [](const bodies::PlacedScene& placed, const OptionValues& values) {
+  info.build_scene = [](const scenes::PlacedScene& placed, const OptionValues& values) {
     const auto over = [&]<Detector D>(std::type_identity<D>) {
-      return scene_contestant(placed, [](const bodies::PlacedScene& one) { return SceneOf<D>(one); });
+      return scene_contestant(placed, [](const scenes::PlacedScene& one) { return SceneOf<D>(one); });
     };
     const std::string& of = values.text("of");
     return of == "grid-group"  ? over(std::type_identity<GridGroup>())

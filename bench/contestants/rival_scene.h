@@ -7,11 +7,11 @@
 namespace touchmark::bench::contestants {
 
 /// Throws std::invalid_argument for round bodies.
-inline baselines::PosedScene posed(const bodies::PlacedScene& placed) {
+inline baselines::PosedScene posed(const scenes::PlacedScene& placed) {
   expect_triangles(placed);
   baselines::PosedScene scene{placed.shapes, {}};
   scene.bodies.reserve(placed.bodies.size());
-  for (const bodies::PlacedScene::PlacedBody& body : placed.bodies)
+  for (const scenes::PlacedScene::PlacedBody& body : placed.bodies)
     scene.bodies.push_back({body.shape, body.start});
   return scene;
 }
@@ -19,10 +19,10 @@ inline baselines::PosedScene posed(const bodies::PlacedScene& placed) {
 /// `options_of(values)` returns what each shape of the scene S is built with.
 template <PlayableScene S, class OptionsOfValues>
 BuildSceneContestant build_rival_scene(OptionsOfValues options_of) {
-  return [options_of](const bodies::PlacedScene& placed, const OptionValues& values) {
+  return [options_of](const scenes::PlacedScene& placed, const OptionValues& values) {
     expect_options_of_scenes(values);
     return scene_contestant(
-        placed, [&](const bodies::PlacedScene& one) { return S(posed(one), options_of(values)); });
+        placed, [&](const scenes::PlacedScene& one) { return S(posed(one), options_of(values)); });
   };
 }
 

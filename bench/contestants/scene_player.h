@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/bodies/schedule.h"
 #include "bench/contestants/entry.h"
+#include "bench/scenes/schedule.h"
 #include "core/scene/body.h"
 
 namespace touchmark::bench::contestants {
@@ -51,21 +51,21 @@ template <PlayableScene S>
 class ScenePlayer {
  public:
   struct Options {
-    std::function<S(const bodies::PlacedScene&)> make;
+    std::function<S(const scenes::PlacedScene&)> make;
   };
   struct Session : S::Session {
     std::uint32_t body = 0;  ///< the one that the last contact is on
   };
 
-  ScenePlayer(const bodies::PlacedScene& placed, const Options& options) : scene_(options.make(placed)) {
-    for (const bodies::PlacedScene::PlacedBody& body : placed.bodies) starts_.push_back(body.start);
+  ScenePlayer(const scenes::PlacedScene& placed, const Options& options) : scene_(options.make(placed)) {
+    for (const scenes::PlacedScene::PlacedBody& body : placed.bodies) starts_.push_back(body.start);
   }
   /// Builds a scene of one body, which is the mesh where it stands.
   static ScenePlayer build(const TriangleMesh& mesh, const Options& options) {
     return {{{std::make_shared<const TriangleMesh>(mesh)}, {{0, Pose()}}}, options};
   }
 
-  void stand_at(const bodies::ScheduleView* schedule, std::size_t step) {
+  void stand_at(const scenes::ScheduleView* schedule, std::size_t step) {
     bool moved = false;
     const auto place = [&](std::uint32_t body, const Pose& pose) {
       scene_.place(body, pose);
@@ -102,7 +102,7 @@ class ScenePlayer {
  private:
   S scene_;
   std::vector<Pose> starts_;
-  bodies::ScheduleFollower follower_;
+  scenes::ScheduleFollower follower_;
 };
 
 /// Throws std::invalid_argument for options that are of one mesh.
@@ -116,14 +116,14 @@ inline void expect_options_of_scenes(const OptionValues& values) {
 }
 
 /// Throws std::invalid_argument for a scene with round bodies, of which a contestant does not know.
-inline void expect_triangles(const bodies::PlacedScene& placed) {
+inline void expect_triangles(const scenes::PlacedScene& placed) {
   if (!placed.radii.empty())
     throw std::invalid_argument("it takes triangles alone, and the scene has spheres or capsules");
 }
 
 /// `make(placed)` returns the scene that is played.
 template <class Make>
-std::unique_ptr<Contestant> scene_contestant(const bodies::PlacedScene& placed, const Make& make) {
+std::unique_ptr<Contestant> scene_contestant(const scenes::PlacedScene& placed, const Make& make) {
   using Player = ScenePlayer<decltype(make(placed))>;
   return std::make_unique<ContestantOf<Player>>(Player(placed, {make}));
 }

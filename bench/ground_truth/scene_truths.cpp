@@ -7,9 +7,9 @@
 
 namespace touchmark::bench::ground_truth {
 
-oracle::SceneOracle scene_oracle(const bodies::PlacedScene& scene) {
+oracle::SceneOracle scene_oracle(const scenes::PlacedScene& scene) {
   std::vector<oracle::SceneOracle::Body> bodies;
-  for (const bodies::PlacedScene::PlacedBody& body : scene.bodies)
+  for (const scenes::PlacedScene::PlacedBody& body : scene.bodies)
     bodies.push_back({body.shape, body.start, scene.radius_of(body.shape)});
   return {scene.shapes, std::move(bodies)};
 }

@@ -7,20 +7,20 @@
 #include <span>
 #include <vector>
 
-#include "bench/bodies/schedule.h"
 #include "bench/ground_truth/ground_truth.h"
 #include "bench/oracle/scene_oracle.h"
+#include "bench/scenes/schedule.h"
 #include "bench/workload/steps.h"
 
 namespace touchmark::bench::ground_truth {
 
 /// The oracle's bodies where they are at the start.
-oracle::SceneOracle scene_oracle(const bodies::PlacedScene& scene);
+oracle::SceneOracle scene_oracle(const scenes::PlacedScene& scene);
 
 class SceneTruths final : public TraceTruths {
  public:
   /// All must outlive it. It moves the oracle's bodies, so one at a time may use the oracle.
-  SceneTruths(oracle::SceneOracle& oracle, const bodies::PlacedScene& scene, bodies::ScheduleView schedule,
+  SceneTruths(oracle::SceneOracle& oracle, const scenes::PlacedScene& scene, scenes::ScheduleView schedule,
               std::span<const workload::Step> steps)
       : oracle_(oracle),
         scene_(scene),
@@ -49,10 +49,10 @@ class SceneTruths final : public TraceTruths {
                            const oracle::ErrorCounts& charged);
 
   oracle::SceneOracle& oracle_;
-  const bodies::PlacedScene& scene_;
-  bodies::ScheduleView schedule_;
+  const scenes::PlacedScene& scene_;
+  scenes::ScheduleView schedule_;
   std::span<const workload::Step> steps_;
-  bodies::ScheduleFollower follower_;
+  scenes::ScheduleFollower follower_;
   std::vector<std::optional<oracle::GroundTruth>> positions_;  ///< what is known so far, one a step
   std::vector<std::optional<oracle::SweepGroundTruth>> sweeps_;
 };

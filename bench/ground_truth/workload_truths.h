@@ -5,10 +5,10 @@
 #include <memory>
 #include <optional>
 
-#include "bench/bodies/schedule.h"
 #include "bench/ground_truth/ground_truth.h"
 #include "bench/oracle/oracle.h"
 #include "bench/oracle/scene_oracle.h"
+#include "bench/scenes/schedule.h"
 #include "bench/workload/workload.h"
 
 namespace touchmark::bench::ground_truth {
@@ -28,7 +28,7 @@ class WorkloadTruths {
  private:
   const workload::Workload& workload_;
   std::optional<oracle::Oracle> oracle_;             ///< empty for a scene
-  bodies::PlacedScene scene_;                        ///< empty for a mesh
+  scenes::PlacedScene scene_;                        ///< empty for a mesh
   std::optional<oracle::SceneOracle> scene_oracle_;  ///< which its truths move
 };
 

@@ -45,14 +45,14 @@ std::vector<Request> requests_for(std::size_t measurements, const Effort& effort
 }
 
 /// Null where it stores what it is given, or where nothing is left of the mesh that could be judged by.
-std::unique_ptr<const ground_truth::RoundedScene> rounded_scene(const contestants::ContestantInfo& info,
-                                                                const contestants::ContestantSpec& spec,
-                                                                const TriangleMesh& mesh) {
+std::unique_ptr<const ground_truth::RoundedMesh> rounded_mesh(const contestants::ContestantInfo& info,
+                                                              const contestants::ContestantSpec& spec,
+                                                              const TriangleMesh& mesh) {
   if (!info.built()) return nullptr;
   std::optional<contestants::StorageRounding> storage_rounding = info.storage_rounding(mesh, spec.values);
   if (!storage_rounding) return nullptr;
   try {
-    return std::make_unique<const ground_truth::RoundedScene>(mesh, *std::move(storage_rounding));
+    return std::make_unique<const ground_truth::RoundedMesh>(mesh, *std::move(storage_rounding));
   } catch (const MeshError&) {
     return nullptr;
   }
@@ -89,7 +89,7 @@ Comparison::Comparison(const contestants::Roster& roster, const workload::Worklo
   for (const contestants::ContestantSpec& spec : contestants) {
     processes_.emplace_back(arena_, spec, roster.find(spec.name).worker_program(spec.values));
   }
-  rounded_scenes_.resize(processes_.size());
+  rounded_meshes_.resize(processes_.size());
   truths_.resize(workload.traces.size());
 }
 
@@ -166,7 +166,7 @@ void Comparison::verify(Begun& begun, ground_truth::TraceTruths& truths) {
     support::check_for_interrupt();
     progress_(workload_.trajectories[begun.trace], one.contestant());
     one.calibrate();
-    verify(one, rounded_scene_of(begun.whose[i]), begun.trace, truths);
+    verify(one, rounded_mesh_of(begun.whose[i]), begun.trace, truths);
     begun.interleaved.push_back(&one);
     if (schedule_ == Schedule::interleaved) continue;
     begun.requests = requests_for(begun.interleaved.size(), effort_, support::Random(seed_ + begun.trace));
@@ -242,17 +242,17 @@ Measurement* Comparison::to_control(const std::vector<Measurement*>& measurement
   return chosen;
 }
 
-const ground_truth::RoundedScene* Comparison::rounded_scene_of(std::size_t process) {
-  std::optional<std::unique_ptr<const ground_truth::RoundedScene>>& rounded = rounded_scenes_[process];
+const ground_truth::RoundedMesh* Comparison::rounded_mesh_of(std::size_t process) {
+  std::optional<std::unique_ptr<const ground_truth::RoundedMesh>>& rounded = rounded_meshes_[process];
   if (workload_.scene) return nullptr;
   if (!rounded) {
     const contestants::ContestantSpec& spec = processes_[process].spec();
-    rounded = rounded_scene(roster_.find(spec.name), spec, workload_.mesh);
+    rounded = rounded_mesh(roster_.find(spec.name), spec, workload_.mesh);
   }
   return rounded->get();
 }
 
-void Comparison::verify(Measurement& one, const ground_truth::RoundedScene* rounded, std::size_t trace,
+void Comparison::verify(Measurement& one, const ground_truth::RoundedMesh* rounded, std::size_t trace,
                         ground_truth::TraceTruths& truths) {
   if (rounded == nullptr) return one.verify(truths);
   ground_truth::GroundTruths of_rounded(rounded->oracle(), rounded->trace(workload_.traces[trace]));

@@ -14,7 +14,7 @@
 
 #include "bench/contestants/contestant_info.h"
 #include "bench/ground_truth/ground_truth.h"
-#include "bench/ground_truth/rounded_scene.h"
+#include "bench/ground_truth/rounded_mesh.h"
 #include "bench/ground_truth/workload_truths.h"
 #include "bench/measurement/effort.h"
 #include "bench/measurement/result_row.h"
@@ -87,10 +87,10 @@ class Comparison {
   void verify(Begun& begun, ground_truth::TraceTruths& truths);
   void add_control(Begun& begun, ground_truth::TraceTruths& truths);
   std::vector<ResultRow> rows_of(Begun& begun);
-  /// The scene as that process's library rounds it, made when first asked for; null where it is the given
+  /// The mesh as that process's library rounds it, made when first asked for; null where it is the given
   /// one.
-  const ground_truth::RoundedScene* rounded_scene_of(std::size_t process);
-  void verify(class Measurement& one, const ground_truth::RoundedScene* rounded, std::size_t trace,
+  const ground_truth::RoundedMesh* rounded_mesh_of(std::size_t process);
+  void verify(class Measurement& one, const ground_truth::RoundedMesh* rounded, std::size_t trace,
               ground_truth::TraceTruths& truths);
   /// Takes the requests of `begun` up to this one.
   void measure(Begun& begun, std::size_t end);
@@ -107,8 +107,8 @@ class Comparison {
   workers::SharedArena arena_;
   ground_truth::WorkloadTruths workload_truths_;
   std::deque<workers::ContestantProcess> processes_;
-  std::vector<std::optional<std::unique_ptr<const ground_truth::RoundedScene>>>
-      rounded_scenes_;  ///< a process each
+  std::vector<std::optional<std::unique_ptr<const ground_truth::RoundedMesh>>>
+      rounded_meshes_;  ///< a process each
   std::optional<workers::ContestantProcess> control_;
   std::deque<std::unique_ptr<Begun>> begun_;
   std::vector<std::vector<ground_truth::StepTruth>> truths_;  ///< one list a trace

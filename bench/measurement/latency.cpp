@@ -21,7 +21,7 @@ DeadlineMisses count_misses(std::span<const double> ns, const std::vector<worklo
     for (const std::size_t end = step + range.size(); step < end; ++step) {
       run = ns[step] > period_ns ? run + 1 : 0;
       count.misses += run > 0 ? 1 : 0;
-      count.longest_run = std::max(count.longest_run, run);
+      count.max_run = std::max(count.max_run, run);
     }
   }
   return count;

@@ -14,8 +14,8 @@ namespace touchmark::bench::measurement {
 inline constexpr std::array<double, 3> deadlines_hz{1000, 4000, 10000};
 
 struct DeadlineMisses {
-  std::size_t misses = 0;       ///< steps that took longer than the period
-  std::size_t longest_run = 0;  ///< how many neighbouring steps missed it one after the other
+  std::size_t misses = 0;   ///< steps that took longer than the period
+  std::size_t max_run = 0;  ///< how many neighbouring steps missed it one after the other
 };
 
 struct LatencySummary {

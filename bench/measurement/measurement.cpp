@@ -186,7 +186,7 @@ void Measurement::judge(ground_truth::TraceTruths& truths, ground_truth::TraceTr
   if (logged)
     log_ = std::make_shared<StepLog>(log_of(ranges_, answers, arena_.buffers().work(row_.steps), charges));
   if (rounded != nullptr)
-    row_.rounded_scene_counts = rounded->judge(task_.query, ranges_, answers, *row_.accuracy);
+    row_.rounded_mesh_counts = rounded->judge(task_.query, ranges_, answers, *row_.accuracy);
 }
 
 void Measurement::shut_down() { process_.end(); }

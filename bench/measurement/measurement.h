@@ -39,7 +39,7 @@ class Measurement {
   /// Calibrates it with the steps and repetitions of another contestant's measurement.
   void calibrate_like(const Measurement& other);
   /// Has the steps answered and judged, before anything is timed; once more by `rounded`, unless that is
-  /// null: the ground truth of the scene as the contestant's library stores it.
+  /// null: the ground truth of the mesh as the contestant's library stores it.
   void verify(ground_truth::TraceTruths& truths, ground_truth::TraceTruths* rounded = nullptr);
 
   /// Times a pass with a fresh session, after others used the caches. A detector that builds lazily is built

@@ -74,7 +74,7 @@ struct ResultRow {
   std::optional<Accuracy> accuracy;           ///< as claimed once it was built
   std::optional<oracle::ErrorCounts> counts;  ///< as found
   std::optional<oracle::ErrorCounts>
-      rounded_scene_counts;  ///< by the mesh that its library keeps, where that is another
+      rounded_mesh_counts;  ///< by the mesh that its library keeps, where that is another
   std::optional<ThroughputResult> throughput;
   std::optional<LatencySummary> latency;
   std::optional<ColdSummary> cold_l2, cold;        ///< the second-level cache emptied; all caches

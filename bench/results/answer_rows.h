@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <string>
 
-#include "bench/bodies/body_scene.h"
 #include "bench/contestants/contestant.h"
+#include "bench/scenes/body_scene.h"
 #include "bench/workload/answer.h"
 
 namespace touchmark::bench::results {
@@ -13,7 +13,7 @@ namespace touchmark::bench::results {
 /// Which columns there are beside those of all queries.
 struct AnswerColumns {
   bool side = false;                          ///< a contestant was asked for it
-  const bodies::BodyScene* bodies = nullptr;  ///< a scene, whose bodies are named; null: no such column
+  const scenes::BodyScene* bodies = nullptr;  ///< a scene, whose bodies are named; null: no such column
 };
 
 /// Returns the header with its line end. All queries have these columns; `sweep` appends the fraction of the

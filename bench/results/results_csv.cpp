@@ -39,8 +39,8 @@ std::string misses_of(Row row) {
 }
 
 template <std::size_t Deadline>
-std::string longest_run_of(Row row) {
-  return row.latency ? fmt::format("{}", row.latency->deadlines[Deadline].longest_run) : "";
+std::string max_run_of(Row row) {
+  return row.latency ? fmt::format("{}", row.latency->deadlines[Deadline].max_run) : "";
 }
 
 template <auto Member>
@@ -160,7 +160,7 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"ns_max", rounded<6, &R::latency, &L::max>, timed, finite, "time of the slowest step"},
     {"update_rate_hz", update_rate, timed, positive, "queries a second: 1e9 / `ns_per_query`"},
     {"deadline_misses_1khz", misses_of<0>, timed, whole_number, "steps that took more than 1 ms"},
-    {"longest_miss_run_1khz", longest_run_of<0>, timed, whole_number, "longest run of such steps"},
+    {"longest_miss_run_1khz", max_run_of<0>, timed, whole_number, "longest run of such steps"},
     {"build_ms", rounded<6, &R::build_ms>, built, finite,
      "time from the mesh in memory to a detector that can answer"},
     {"first_answer_ms", rounded<6, &R::first_answer_ms>, built, finite,
@@ -185,9 +185,9 @@ constexpr auto columns = std::to_array<Column<R>>({
      "time of a query with a fresh session, when other contestants have used the caches meanwhile; a "
      "detector with `build=lazy` is built anew just before, so that what its first queries make is in it"},
     {"deadline_misses_4khz", misses_of<1>, timed, whole_number, "steps that took more than 0.25 ms"},
-    {"longest_miss_run_4khz", longest_run_of<1>, timed, whole_number, "longest run of such steps"},
+    {"longest_miss_run_4khz", max_run_of<1>, timed, whole_number, "longest run of such steps"},
     {"deadline_misses_10khz", misses_of<2>, timed, whole_number, "steps that took more than 0.1 ms"},
-    {"longest_miss_run_10khz", longest_run_of<2>, timed, whole_number, "longest run of such steps"},
+    {"longest_miss_run_10khz", max_run_of<2>, timed, whole_number, "longest run of such steps"},
     {"clock_cost_ns", clock_cost, timed, finite, "cost of reading the clock: a part of every clocked step"},
     {"max_distance_error_of_diagonal", text<&R::counts, &E::max_distance_error_of_diagonal>, judged, length,
      "`max_distance_error` over the diagonal of the mesh's box"},
@@ -216,13 +216,13 @@ constexpr auto columns = std::to_array<Column<R>>({
      "decided"},
     {"decides_exactly", decides_exactly, judged, bit,
      "1: contact is decided for the true distance of the stored doubles, closed, without any tolerance"},
-    {"stored_missed", text<&R::rounded_scene_counts, &E::missed>, optional, whole_number,
+    {"stored_missed", text<&R::rounded_mesh_counts, &E::missed>, optional, whole_number,
      "contacts missed by the scene as the contestant stores it, in single precision: what is left of them "
      "is not due to storing. Empty where it decides by the given doubles"},
-    {"stored_false_contacts", text<&R::rounded_scene_counts, &E::false_contacts>, optional, whole_number,
+    {"stored_false_contacts", text<&R::rounded_mesh_counts, &E::false_contacts>, optional, whole_number,
      "contacts made up, likewise"},
     {"stored_max_distance_error_of_diagonal",
-     text<&R::rounded_scene_counts, &E::max_distance_error_of_diagonal>, optional, length,
+     text<&R::rounded_mesh_counts, &E::max_distance_error_of_diagonal>, optional, length,
      "the largest error of a distance, likewise"},
     {"wrong_side", text<&R::counts, &E::wrong_side>, judged, whole_number,
      "`nearest` with the option `side=on`, closed meshes: steps said to be inside, outside or on the "

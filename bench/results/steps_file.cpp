@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/meshes/drawn_mesh.h"
 #include "bench/results/steps_surroundings.h"
-#include "bench/scenes/drawn_mesh.h"
 #include "bench/support/packed_blocks.h"
 #include "bench/workload/query_name.h"
 #include "bench/workload/sample_steps.h"
@@ -129,7 +129,7 @@ class StepsFile {
 /// The coarse mesh to be drawn, and the triangles around noted steps as they are.
 Json StepsFile::mesh_json() {
   const TriangleMesh& mesh = workload_.mesh;
-  const scenes::DrawnMesh drawn = scenes::drawn_mesh(mesh, max_drawn_triangles);
+  const meshes::DrawnMesh drawn = meshes::drawn_mesh(mesh, max_drawn_triangles);
   Grid grid;
   for (const Vec3& vertex : drawn.vertices) grid.include(vertex);
   std::vector<std::uint16_t> vertices[3];

@@ -13,7 +13,7 @@
 namespace touchmark::bench::support {
 namespace {
 
-constexpr std::size_t longest_field = 1 << 16;  // a file without commas or line ends must not fill the memory
+constexpr std::size_t max_field = 1 << 16;  // a file without commas or line ends must not fill the memory
 constexpr std::size_t max_fields = 1 << 16;
 constexpr std::size_t max_comments = 64;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
@@ -81,7 +81,7 @@ int CsvReader::read_field(std::string& field) {
   if (peek() == '"') return read_quoted(field);
   int c = take();
   for (; c != separator_ && !ends_line(c); c = take()) {
-    if (field.size() >= longest_field) throw error("a field is longer than 64 KiB");
+    if (field.size() >= max_field) throw error("a field is longer than 64 KiB");
     field.push_back(static_cast<char>(c));
   }
   return c;
@@ -91,7 +91,7 @@ int CsvReader::read_quoted(std::string& field) {
   get();  // the quote
   for (int c = get(); c != '"' || peek() == '"'; c = get()) {
     if (c == EOF) throw error("a quote is never closed");
-    if (field.size() >= longest_field) throw error("a field is longer than 64 KiB");
+    if (field.size() >= max_field) throw error("a field is longer than 64 KiB");
     if (c == '"') get();  // two quotes stand for one
     field.push_back(static_cast<char>(c));
   }

@@ -53,10 +53,9 @@ PackedBlock BlockPacker::add_planes(const std::string& planes, std::size_t item_
 }
 
 std::optional<std::string> unpacked(std::string_view blocks, const PackedBlock& block) {
-  constexpr std::size_t least_ratio = 1032;  // deflate makes nothing smaller than this part of it
+  constexpr std::size_t max_ratio = 1032;  // deflate makes nothing smaller than this part of it
   if (block.offset > blocks.size() || block.bytes > blocks.size() - block.offset) return std::nullopt;
-  if (block.item_bytes == 0 || block.items > block.bytes * least_ratio / block.item_bytes)
-    return std::nullopt;
+  if (block.item_bytes == 0 || block.items > block.bytes * max_ratio / block.item_bytes) return std::nullopt;
   std::string planes(block.items * block.item_bytes, '\0');
   uLongf size = static_cast<uLongf>(planes.size());
   const int status = uncompress(reinterpret_cast<Bytef*>(planes.data()), &size,

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "bench/scenes/welded_mesh.h"
+#include "bench/meshes/welded_mesh.h"
 #include "core/geometry/point_triangle.h"
 
 namespace touchmark::bench::trajectories {
@@ -44,12 +44,12 @@ Vec3 bisector_of(std::span<const Face> faces, const Vec3& along) {
 }  // namespace
 
 MeshEdges::MeshEdges(const TriangleMesh& mesh) {
-  scenes::WeldedMesh welded(mesh);
+  meshes::WeldedMesh welded(mesh);
   nodes_ = std::move(welded.nodes);
   std::vector<Face> faces;
-  welded.each_edge([&](std::span<const scenes::TriangleSide> sides) {
+  welded.each_edge([&](std::span<const meshes::TriangleSide> sides) {
     faces.clear();
-    for (const scenes::TriangleSide& side : sides) {
+    for (const meshes::TriangleSide& side : sides) {
       const Vec3 normal = prepare(mesh, side.triangle).normal;
       if (!normal.isZero(0)) faces.push_back({normal, side.forward});
     }

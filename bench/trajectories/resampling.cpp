@@ -8,7 +8,7 @@
 namespace touchmark::bench::trajectories {
 namespace {
 
-constexpr double longest_interval = 1.5;  // of usual ones; with a row missing it is 2
+constexpr double max_interval = 1.5;  // of usual ones; with a row missing it is 2
 
 /// How far a tick may be from a row's time by rounding alone: that of the times as read, of start + tick/rate
 /// and of their difference, half a unit in the last place each.
@@ -24,7 +24,7 @@ std::size_t first_gap(const std::vector<double>& times_s) {
   for (std::size_t i = 1; i < times_s.size(); ++i) intervals.push_back(times_s[i] - times_s[i - 1]);
   const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>((intervals.size() - 1) / 2);
   std::nth_element(intervals.begin(), middle, intervals.end());
-  const double limit = longest_interval * *middle;
+  const double limit = max_interval * *middle;
   for (std::size_t i = 1; i < times_s.size(); ++i)
     if (times_s[i] - times_s[i - 1] > limit) return i;
   return 0;

@@ -17,7 +17,7 @@ class Geometry {
  public:
   Geometry(std::span<const std::byte> input, const WorkloadLayout& layout) {
     if (layout.bodies > 0) {
-      bodies::PlacedScene scene = read_scene(input, layout);
+      scenes::PlacedScene scene = read_scene(input, layout);
       scene.near = shapes_near(scene, read_traces(input, layout), read_schedules(input, layout));
       built_of_ = std::move(scene);
     } else {
@@ -29,7 +29,7 @@ class Geometry {
   std::size_t triangles() const noexcept {
     if (const auto* const mesh = std::get_if<TriangleMesh>(&built_of_)) return mesh->size();
     std::size_t sum = 0;
-    const auto& scene = std::get<bodies::PlacedScene>(built_of_);
+    const auto& scene = std::get<scenes::PlacedScene>(built_of_);
     for (std::size_t i = 0; i < scene.shapes.size(); ++i)
       sum += scene.is_near(i) ? scene.shapes[i]->size() : 0;
     return sum;
@@ -40,7 +40,7 @@ class Geometry {
   }
 
  private:
-  std::variant<bodies::PlacedScene, TriangleMesh> built_of_;
+  std::variant<scenes::PlacedScene, TriangleMesh> built_of_;
 };
 
 }  // namespace touchmark::bench::workers

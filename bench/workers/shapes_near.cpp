@@ -13,10 +13,10 @@ namespace {
 /// The bodies' boxes as they stand, and the shapes found so far.
 class NearShapes {
  public:
-  explicit NearShapes(const bodies::PlacedScene& scene) : near_(scene.shapes.size(), false) {
+  explicit NearShapes(const scenes::PlacedScene& scene) : near_(scene.shapes.size(), false) {
     for (std::size_t i = 0; i < scene.shapes.size(); ++i)
       shapes_.push_back(bodies_.add_shape(scene.shapes[i]->bounds().padded(scene.radius_of(i))));
-    for (const bodies::PlacedScene::PlacedBody& body : scene.bodies)
+    for (const scenes::PlacedScene::PlacedBody& body : scene.bodies)
       ids_.push_back(bodies_.add(shapes_[body.shape], body.start));
   }
 
@@ -61,11 +61,11 @@ class NearShapes {
 
 }  // namespace
 
-std::vector<bool> shapes_near(const bodies::PlacedScene& scene,
+std::vector<bool> shapes_near(const scenes::PlacedScene& scene,
                               std::span<const std::vector<workload::Step>> traces,
-                              std::span<const bodies::ScheduleView> schedules) {
+                              std::span<const scenes::ScheduleView> schedules) {
   NearShapes near(scene);
-  bodies::ScheduleFollower follower;
+  scenes::ScheduleFollower follower;
   const auto place = [&](std::uint32_t body, const Pose& pose) { near.place(body, pose); };
   const auto stood = [&](std::uint32_t body) { return scene.bodies[body].start; };
   for (std::size_t trace = 0; trace < traces.size(); ++trace) {

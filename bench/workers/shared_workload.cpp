@@ -66,17 +66,17 @@ std::size_t step_bytes(const WorkloadLayout& layout) noexcept {
 /// Returns where the bodies begin. They and the schedules are numbers of eight bytes, and are read where they
 /// lie.
 std::size_t bodies_begin(const WorkloadLayout& layout) noexcept {
-  constexpr std::size_t aligned = alignof(bodies::BodyMove);
+  constexpr std::size_t aligned = alignof(scenes::BodyMove);
   return (mesh_bytes(layout) + step_bytes(layout) + aligned - 1) / aligned * aligned;
 }
 
 /// A body is its shape, that one's radius where it is round, and the body's pose at the start.
-constexpr std::size_t bytes_a_body = sizeof(std::uint64_t) + sizeof(double) + sizeof(bodies::BodyMove);
+constexpr std::size_t bytes_a_body = sizeof(std::uint64_t) + sizeof(double) + sizeof(scenes::BodyMove);
 
 std::size_t schedule_bytes(const WorkloadLayout& layout, std::size_t trace) noexcept {
   if (layout.trace_moves[trace] == 0) return 0;
   return (layout.trace_steps[trace] + 1) * sizeof(std::uint64_t) +
-         layout.trace_moves[trace] * sizeof(bodies::BodyMove);
+         layout.trace_moves[trace] * sizeof(scenes::BodyMove);
 }
 
 void put_mesh(Cursor& cursor, const TriangleMesh& mesh) noexcept {
@@ -85,16 +85,16 @@ void put_mesh(Cursor& cursor, const TriangleMesh& mesh) noexcept {
   for (const TriangleId id : mesh.ids()) cursor.put(id);
 }
 
-void put_scene(Cursor& cursor, const bodies::PlacedScene& scene, const workload::Workload& workload) {
+void put_scene(Cursor& cursor, const scenes::PlacedScene& scene, const workload::Workload& workload) {
   for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
     cursor.put(std::uint64_t{scene.bodies[i].shape});
     cursor.put(scene.radius_of(scene.bodies[i].shape));
-    cursor.put(bodies::BodyMove::of(i, scene.bodies[i].start));
+    cursor.put(scenes::BodyMove::of(i, scene.bodies[i].start));
   }
-  for (const bodies::Schedule& schedule : workload.schedules) {
+  for (const scenes::Schedule& schedule : workload.schedules) {
     if (schedule.moves.empty()) continue;
     for (const std::uint64_t first : schedule.first) cursor.put(first);
-    for (const bodies::BodyMove& move : schedule.moves) cursor.put(move);
+    for (const scenes::BodyMove& move : schedule.moves) cursor.put(move);
   }
 }
 
@@ -151,7 +151,7 @@ WorkloadLayout layout_of(const workload::Workload& workload, std::size_t min_out
   for (const auto& shape : placed(*workload.scene).shapes)
     layout.shapes.push_back({shape->vertices().size(), shape->size(), shape->ids().size()});
   layout.bodies = workload.scene->bodies.size();
-  for (const bodies::Schedule& schedule : workload.schedules)
+  for (const scenes::Schedule& schedule : workload.schedules)
     layout.trace_moves.push_back(schedule.moves.size());
   return layout;
 }
@@ -160,7 +160,7 @@ SharedMemory write_input(const workload::Workload& workload) {
   const WorkloadLayout layout = layout_of(workload);
   SharedMemory memory = SharedMemory::create(layout.input_bytes());
   Cursor cursor(memory.bytes().data());
-  bodies::PlacedScene scene;
+  scenes::PlacedScene scene;
   if (workload.scene) {
     scene = placed(*workload.scene);
     for (const auto& shape : scene.shapes) put_mesh(cursor, *shape);
@@ -186,8 +186,8 @@ TriangleMesh read_mesh(std::span<const std::byte> input, const WorkloadLayout& l
   return get_mesh(reader, layout.vertices, layout.triangles, layout.ids);
 }
 
-bodies::PlacedScene read_scene(std::span<const std::byte> input, const WorkloadLayout& layout) {
-  bodies::PlacedScene scene;
+scenes::PlacedScene read_scene(std::span<const std::byte> input, const WorkloadLayout& layout) {
+  scenes::PlacedScene scene;
   Reader reader(input.data());
   for (const auto& [vertices, triangles, ids] : layout.shapes)
     scene.shapes.push_back(std::make_shared<const TriangleMesh>(get_mesh(reader, vertices, triangles, ids)));
@@ -198,15 +198,15 @@ bodies::PlacedScene read_scene(std::span<const std::byte> input, const WorkloadL
       scene.radii.resize(scene.shapes.size());
       scene.radii[shape] = radius;
     }
-    scene.bodies.push_back({shape, placed.get<bodies::BodyMove>().pose()});
+    scene.bodies.push_back({shape, placed.get<scenes::BodyMove>().pose()});
   }
   scene.moves = std::ranges::any_of(layout.trace_moves, [](std::size_t moves) { return moves > 0; });
   return scene;
 }
 
-std::vector<bodies::ScheduleView> read_schedules(std::span<const std::byte> input,
+std::vector<scenes::ScheduleView> read_schedules(std::span<const std::byte> input,
                                                  const WorkloadLayout& layout) {
-  std::vector<bodies::ScheduleView> schedules(layout.trace_steps.size());
+  std::vector<scenes::ScheduleView> schedules(layout.trace_steps.size());
   const std::byte* at = input.data() + bodies_begin(layout) + layout.bodies * bytes_a_body;
   for (std::size_t trace = 0; trace < layout.trace_moves.size(); ++trace) {
     if (layout.trace_moves[trace] == 0) continue;
@@ -214,8 +214,8 @@ std::vector<bodies::ScheduleView> read_schedules(std::span<const std::byte> inpu
     const std::size_t firsts = layout.trace_steps[trace] + 1;
     schedules[trace].first = {reinterpret_cast<const std::uint64_t*>(at), firsts};
     at += firsts * sizeof(std::uint64_t);
-    schedules[trace].moves = {reinterpret_cast<const bodies::BodyMove*>(at), layout.trace_moves[trace]};
-    at += layout.trace_moves[trace] * sizeof(bodies::BodyMove);
+    schedules[trace].moves = {reinterpret_cast<const scenes::BodyMove*>(at), layout.trace_moves[trace]};
+    at += layout.trace_moves[trace] * sizeof(scenes::BodyMove);
   }
   return schedules;
 }

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "bench/bodies/schedule.h"
 #include "bench/contestants/contestant.h"
+#include "bench/scenes/schedule.h"
 #include "bench/workers/paced_replay.h"
 #include "bench/workers/shared_memory.h"
 #include "bench/workload/answer.h"
@@ -65,8 +65,8 @@ WorkloadLayout layout_of(const workload::Workload& workload, std::size_t min_out
 
 /// The worker's side. read_mesh is of a workload without a scene, read_scene and read_schedules of one with
 /// a scene; the schedules lie where the input does.
-bodies::PlacedScene read_scene(std::span<const std::byte> input, const WorkloadLayout& layout);
-std::vector<bodies::ScheduleView> read_schedules(std::span<const std::byte> input,
+scenes::PlacedScene read_scene(std::span<const std::byte> input, const WorkloadLayout& layout);
+std::vector<scenes::ScheduleView> read_schedules(std::span<const std::byte> input,
                                                  const WorkloadLayout& layout);
 TriangleMesh read_mesh(std::span<const std::byte> input, const WorkloadLayout& layout);
 std::vector<std::vector<workload::Step>> read_traces(std::span<const std::byte> input,

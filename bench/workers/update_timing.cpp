@@ -11,12 +11,12 @@ namespace touchmark::bench::workers {
 
 Updated time_updates(contestants::Contestant& contestant, const contestants::Roster& roster,
                      const contestants::ContestantSpec& spec, const TriangleMesh& rest,
-                     const scenes::Deformation& deformation) {
+                     const meshes::Deformation& deformation) {
   constexpr std::size_t min_rounds = 3, max_rounds = 25;
   constexpr double enough_ns = 1e9;
   Updated updated;
   updated.supported = true;
-  const TriangleMesh moved = scenes::deformed(rest, deformation);
+  const TriangleMesh moved = meshes::deformed(rest, deformation);
   const auto timed_update = [&](const TriangleMesh& mesh) {
     const Clock::time_point start = Clock::now();
     contestant.update(mesh);

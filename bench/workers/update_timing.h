@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "bench/contestants/contestant_info.h"
-#include "bench/scenes/deformation.h"
+#include "bench/meshes/deformation.h"
 #include "bench/workers/worker_protocol.h"
 
 namespace touchmark::bench::workers {
@@ -19,6 +19,6 @@ inline double ns_since(Clock::time_point start) {
 /// contestant, which must be one that updates, follows the deformed mesh afterwards.
 Updated time_updates(contestants::Contestant& contestant, const contestants::Roster& roster,
                      const contestants::ContestantSpec& spec, const TriangleMesh& rest,
-                     const scenes::Deformation& deformation);
+                     const meshes::Deformation& deformation);
 
 }  // namespace touchmark::bench::workers

@@ -20,7 +20,7 @@
 #include "bench/contestants/build_notes.h"
 #include "bench/contestants/guided_proxy.h"
 #include "bench/contestants/tick_clock.h"
-#include "bench/scenes/deformation.h"
+#include "bench/meshes/deformation.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/denormals.h"
 #include "bench/support/failures.h"
@@ -125,7 +125,7 @@ class Worker {
   std::optional<OutputBuffers> buffers_;
   std::optional<Geometry> geometry_;
   std::vector<std::vector<workload::Step>> traces_;
-  std::vector<bodies::ScheduleView> schedules_;
+  std::vector<scenes::ScheduleView> schedules_;
   std::optional<contestants::ContestantSpec> spec_;
   std::unique_ptr<contestants::Contestant> contestant_;
   std::optional<contestants::GuidedProxy> proxy_;  ///< over the same detector
@@ -218,7 +218,7 @@ Updated Worker::handle(const request::Update& request) {
 }
 
 Done Worker::handle(const request::Rebuild& request) {
-  const TriangleMesh moved = scenes::deformed(read_mesh(input_.bytes(), layout_), request.deformation);
+  const TriangleMesh moved = meshes::deformed(read_mesh(input_.bytes(), layout_), request.deformation);
   roster_->prepare_to_build(*spec_, moved.size());
   proxy_.reset();
   contestant_ = roster_->build(*spec_, moved);

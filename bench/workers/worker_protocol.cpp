@@ -31,9 +31,9 @@ namespace contestants {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OptionInfo, key, kind, choices, default_value, summary)
 }  // namespace contestants
 
-namespace scenes {
+namespace meshes {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Deformation, share, seed)
-}  // namespace scenes
+}  // namespace meshes
 
 namespace workers {
 

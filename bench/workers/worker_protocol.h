@@ -14,7 +14,7 @@
 
 #include "bench/contestants/contestant.h"
 #include "bench/contestants/contestant_info.h"
-#include "bench/scenes/deformation.h"
+#include "bench/meshes/deformation.h"
 #include "bench/workers/paced_replay.h"
 #include "bench/workers/shared_workload.h"
 #include "bench/workload/answer.h"
@@ -146,13 +146,13 @@ struct Build {
 /// turns before; medians over the rounds.
 struct Update {
   using Reply = Updated;
-  scenes::Deformation deformation;
+  meshes::Deformation deformation;
 };
 
 /// The detector is built anew, of the deformed mesh.
 struct Rebuild {
   using Reply = Done;
-  scenes::Deformation deformation;
+  meshes::Deformation deformation;
 };
 
 /// One step, by a fresh session.

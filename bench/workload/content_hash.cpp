@@ -27,7 +27,7 @@ std::uint64_t hash_of_things(const Workload& workload) {
     const std::uint64_t content = hash_of(*shape);
     hash.add(&content, sizeof content);
   }
-  for (const bodies::Body& body : workload.scene->bodies) {
+  for (const scenes::Body& body : workload.scene->bodies) {
     const std::uint64_t shape = body.shape;
     hash.add(body.name);
     hash.add(&shape, sizeof shape);
@@ -42,7 +42,7 @@ std::uint64_t hash_of_motion(const Workload& workload, std::size_t trace) {
   if (!workload.scene) return steps;
   ContentHash hash;
   hash.add(&steps, sizeof steps);
-  const bodies::Schedule& schedule = workload.schedules[trace];
+  const scenes::Schedule& schedule = workload.schedules[trace];
   hash.add(schedule.first.data(), schedule.first.size() * sizeof schedule.first[0]);
   hash.add(schedule.moves.data(), schedule.moves.size() * sizeof schedule.moves[0]);
   return hash.value();

@@ -6,14 +6,14 @@ namespace touchmark::bench::workload {
 namespace {
 
 /// Long enough for a session to profit from coherence, short enough to see several parts of the way.
-constexpr std::size_t longest_range = 64;
+constexpr std::size_t max_range = 64;
 constexpr std::size_t min_ranges = 8;
 
 }  // namespace
 
 std::vector<StepRange> sample_steps(std::size_t total, std::size_t wanted) {
   if (wanted >= total) return {{0, total}};
-  const std::size_t length = std::clamp<std::size_t>(wanted / min_ranges, 1, longest_range);
+  const std::size_t length = std::clamp<std::size_t>(wanted / min_ranges, 1, max_range);
   const std::size_t count = std::max<std::size_t>(wanted / length, 1);
   std::vector<StepRange> ranges;
   for (std::size_t i = 0; i < count; ++i) {

@@ -33,10 +33,10 @@ std::vector<double> times_of(const trajectories::Trajectory& trajectory, std::op
 }
 
 /// The bodies of the merged mesh, by the triangles that each begins with.
-std::vector<std::size_t> beginnings_of(const bodies::BodyScene& scene, std::size_t triangles) {
+std::vector<std::size_t> beginnings_of(const scenes::BodyScene& scene, std::size_t triangles) {
   std::vector<std::size_t> beginnings;
   std::size_t sum = 0;
-  for (const bodies::Body& body : scene.bodies) {
+  for (const scenes::Body& body : scene.bodies) {
     if (sum >= triangles) break;
     beginnings.push_back(sum);
     sum += scene.shapes[body.shape]->size();
@@ -45,7 +45,7 @@ std::vector<std::size_t> beginnings_of(const bodies::BodyScene& scene, std::size
 }
 
 /// Takes each position along with the body nearest to it at the start.
-void carry(std::vector<Vec3>& positions, std::span<const double> times, const bodies::GeneratedScene& scene,
+void carry(std::vector<Vec3>& positions, std::span<const double> times, const scenes::GeneratedScene& scene,
            const TriangleMesh& merged) {
   if (scene.motion.moving.empty()) return;
   const std::vector<std::size_t> beginnings = beginnings_of(scene.scene, merged.size());
@@ -57,17 +57,17 @@ void carry(std::vector<Vec3>& positions, std::span<const double> times, const bo
     const auto after = std::upper_bound(beginnings.begin(), beginnings.end(), found->triangle);
     const auto body = static_cast<std::uint32_t>(after - beginnings.begin() - 1);
     if (!std::binary_search(scene.motion.moving.begin(), scene.motion.moving.end(), body)) continue;
-    const Pose start = bodies::pose_of(scene.scene.bodies[body].start);
-    positions[i] = image(bodies::pose_of(scene.motion.at(body, times[i])), in_frame(start, positions[i]));
+    const Pose start = scenes::pose_of(scene.scene.bodies[body].start);
+    positions[i] = image(scenes::pose_of(scene.motion.at(body, times[i])), in_frame(start, positions[i]));
   }
 }
 
 }  // namespace
 
-Workload make_scene_workload(bodies::GeneratedScene scene, const Selection& selection,
+Workload make_scene_workload(scenes::GeneratedScene scene, const Selection& selection,
                              const std::vector<std::string>& trajectories, std::size_t default_steps) {
-  const double diagonal = bodies::bounds_of(scene.scene).diagonal();
-  Workload workload{scene.scene.name, bodies::merged(scene.scene, max_merged_triangles), 0, {}, {}, {}};
+  const double diagonal = scenes::bounds_of(scene.scene).diagonal();
+  Workload workload{scene.scene.name, scenes::merged(scene.scene, max_merged_triangles), 0, {}, {}, {}};
   workload.radius = selection.radius.along(diagonal);
   if (selection.reach) workload.reach = selection.reach->along(diagonal);
   workload.unit = selection.unit;
@@ -84,9 +84,9 @@ Workload make_scene_workload(bodies::GeneratedScene scene, const Selection& sele
     workload.motions.push_back(pace_of(trajectory));
     workload.trajectories.push_back(trajectory.name);
     workload.traces.push_back(trace_along(trajectory, workload.radius, workload.reach));
-    workload.schedules.push_back(bodies::schedule_of(scene.motion, times));
+    workload.schedules.push_back(scenes::schedule_of(scene.motion, times));
   }
-  workload.scene = std::make_shared<const bodies::BodyScene>(std::move(scene.scene));
+  workload.scene = std::make_shared<const scenes::BodyScene>(std::move(scene.scene));
   return workload;
 }
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "bench/bodies/schedule.h"
+#include "bench/scenes/schedule.h"
 #include "bench/workload/answer.h"
 #include "core/probe.h"
 
@@ -28,7 +28,7 @@ struct StepRange {
 struct QueryTrace {
   Query query = Query::nearest;
   std::span<const Step> steps;
-  const bodies::ScheduleView* schedule = nullptr;  ///< a scene's; null: a mesh
+  const scenes::ScheduleView* schedule = nullptr;  ///< a scene's; null: a mesh
 };
 
 }  // namespace touchmark::bench::workload

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/bodies/generated_bodies.h"
-#include "bench/bodies/schedule.h"
+#include "bench/scenes/generated_bodies.h"
+#include "bench/scenes/schedule.h"
 #include "bench/trajectories/trajectory.h"
 #include "bench/workload/selection.h"
 #include "bench/workload/steps.h"
@@ -31,8 +31,8 @@ struct Workload {
   std::vector<std::vector<Step>> traces;                     ///< one a trajectory
   std::vector<Pace> motions = {};                            ///< one a trajectory, or none
   std::optional<support::LengthUnit> unit = std::nullopt;    ///< nothing: unknown
-  std::shared_ptr<const bodies::BodyScene> scene = nullptr;  ///< null: the mesh alone, which stands
-  std::vector<bodies::Schedule> schedules = {};              ///< one a trajectory of a scene
+  std::shared_ptr<const scenes::BodyScene> scene = nullptr;  ///< null: the mesh alone, which stands
+  std::vector<scenes::Schedule> schedules = {};              ///< one a trajectory of a scene
 
   std::size_t triangles() const noexcept { return scene ? scene->triangles() : mesh.size(); }
 };
@@ -47,7 +47,7 @@ Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection
 /// have more than two million triangles), and each position is then carried along by the body that is
 /// nearest to it there: what touches a body keeps touching it. A file's positions are where it says. A step's
 /// time is the file's, or its number divided by the rate, which is 1000 where none was given.
-Workload make_scene_workload(bodies::GeneratedScene scene, const Selection& selection,
+Workload make_scene_workload(scenes::GeneratedScene scene, const Selection& selection,
                              const std::vector<std::string>& trajectories, std::size_t default_steps);
 
 /// A length of the workload as reports write it: with its unit where that is known.

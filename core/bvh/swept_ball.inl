@@ -65,13 +65,13 @@ struct SweptLanes {
 
   /// Tries a plane across any direction.
   void try_plane(const WideVec& across) noexcept {
-    constexpr float least_squared = 0x1p-80F, underflow = 0x1p-100F;
+    constexpr float min_squared = 0x1p-80F, underflow = 0x1p-100F;
     const Wide squared = dot(across, across);
     const Wide length = square_root(squared);
     const Wide low = min(dot(across, to[0]), min(dot(across, to[1]), dot(across, to[2])));
     const Wide change = min(until * dot(across, way), Wide{});
     const WideBits is_apart =
-        (low + change > (radius + error) * length + underflow) & (squared > Wide{} + least_squared) & ~apart;
+        (low + change > (radius + error) * length + underflow) & (squared > Wide{} + min_squared) & ~apart;
     const Wide inverse = inverse_or_zero(length);
     normal.x = is_apart ? across.x * inverse : normal.x;
     normal.y = is_apart ? across.y * inverse : normal.y;

@@ -27,7 +27,7 @@ inline constexpr std::size_t words_of_plane = sizeof(StoredPlane) / sizeof(std::
 /// over the feet of the cube's points on the plane, as seen along the axis that the normal is closest to:
 /// each of its squares names a triangle.
 struct PlaneCell {
-  static constexpr std::uint8_t most_bits = 4;
+  static constexpr std::uint8_t max_bits = 4;
 
   StoredPlane stored;
   Vec3 normal = Vec3::Zero();  ///< unit

@@ -10,7 +10,7 @@
 namespace touchmark::field {
 namespace {
 
-constexpr std::size_t most_triangles = 256;  // in a ball: more are not flat together, as a rule
+constexpr std::size_t max_triangles = 256;  // in a ball: more are not flat together, as a rule
 
 Vec3 corner_of(std::size_t corner) noexcept {
   return {static_cast<double>(corner & 1), static_cast<double>(corner >> 1 & 1),
@@ -64,7 +64,7 @@ std::optional<PlaneFitter::Fit> PlaneFitter::fit(const Cube& cube, const Sample&
                                                  const Sampler& sample) const {
   const Ball ball{cube.corner + Vec3::Constant(0.5 * cube.edge), middle.distance + 2 * cube.radius};
   std::vector<Near> near = triangles_in(ball);
-  if (near.size() > most_triangles) return std::nullopt;
+  if (near.size() > max_triangles) return std::nullopt;
   const Vec3 normal = mean_normal(near, ball, middle);
   if (!(normal.squaredNorm() > 0.5)) return std::nullopt;
   Fit fit{PlaneCell::across(normal), {}, {}, 0};
@@ -126,7 +126,7 @@ std::vector<PlaneFitter::Near> PlaneFitter::triangles_in(const Ball& ball) const
   const double radius = ball.radius + limits_.slop, squared = radius * radius;
   tree_.visit(
       [&](const Aabb& box) {
-        return found.size() <= most_triangles && box.squared_distance(ball.center) <= squared;
+        return found.size() <= max_triangles && box.squared_distance(ball.center) <= squared;
       },
       [&](const sign::TriangleTree::Item& item) {
         const double one = squared_distance(triangles_[item.index], ball.center);
@@ -194,7 +194,7 @@ PlaneFitter::Grid PlaneFitter::grid_over(const Cube& cube, const PlaneCell& cell
 bool PlaneFitter::name_feet(const Cube& cube, const Sampler& sample, Fit& fit) const {
   const Grid grid = grid_over(cube, fit.cell);
   while (grid.half_diagonal(fit.cell) > 0.5 * allowed_)
-    if (++fit.cell.stored.bits > PlaneCell::most_bits) return false;
+    if (++fit.cell.stored.bits > PlaneCell::max_bits) return false;
   if (!name_squares(grid, cube, sample, fit)) return false;
   if (fit.near.size() == 1) {
     fit.cell.stored.bits = 0;

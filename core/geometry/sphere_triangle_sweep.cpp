@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/exact/distance_predicates.h"
-#include "core/geometry/way_gap.h"
+#include "core/geometry/path_gap.h"
 
 namespace touchmark {
 namespace {
@@ -16,7 +16,7 @@ constexpr double smallest = std::numeric_limits<double>::denorm_min();
 /// A fraction before which nothing touches, and what was found there.
 struct Reached {
   double fraction;
-  WayGap::Sample here;
+  PathGap::Sample here;
 };
 
 class FirstTouch {
@@ -27,7 +27,7 @@ class FirstTouch {
   std::optional<double> find(double limit) noexcept;
 
  private:
-  bool touches_at_start(const WayGap::Sample& start) noexcept {
+  bool touches_at_start(const PathGap::Sample& start) noexcept {
     if (start.gap < -start.error) return true;
     if (start.gap > start.error) return false;
     ++exact_decisions_;
@@ -55,7 +55,7 @@ class FirstTouch {
 
   const PreparedTriangle& triangle_;
   const Sweep& sweep_;
-  WayGap gap_;
+  PathGap gap_;
   std::uint64_t& exact_decisions_;
 };
 
@@ -64,11 +64,11 @@ class FirstTouch {
 /// what is safe.
 Reached FirstTouch::advance(const Reached& reached) const noexcept {
   constexpr int max_tangents = 8;
-  const WayGap::Sample& here = reached.here;
+  const PathGap::Sample& here = reached.here;
   if (here.surely_falls()) {
     double next = std::min(reached.fraction + (here.gap - 1.5 * here.error) / -here.slope, 1.0);
     for (int tangent = 0; tangent < max_tangents; ++tangent) {
-      const WayGap::Sample there = gap_.at(next);
+      const PathGap::Sample there = gap_.at(next);
       if (!(there.gap > there.error)) break;
       if (there.surely_falls()) return {next, there};
       const Crossing crossing = crossing_of(reached, {next, there});
@@ -112,7 +112,7 @@ std::optional<double> FirstTouch::halve(const Reached& reached) noexcept {
   double low = reached.fraction, high = 1;
   while (high - low > narrow) {
     const double middle = std::round(std::midpoint(low, high) * grid) / grid;
-    const WayGap::Sample there = gap_.at(middle);
+    const PathGap::Sample there = gap_.at(middle);
     bool before = there.gap <= there.error || there.surely_rises();
     if (!before && !there.surely_falls()) before = comes_within(middle);
     (before ? high : low) = middle;
@@ -160,7 +160,7 @@ std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& s
 
 Contact contact_on_path(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
                         TriangleId id) noexcept {
-  return WayGap(triangle, sweep).contact(fraction, id);
+  return PathGap(triangle, sweep).contact(fraction, id);
 }
 
 }  // namespace touchmark

@@ -61,9 +61,8 @@ inline bool plane_keeps_apart(const PreparedTriangle& triangle, const Sweep& swe
 /// Returns the direction of an offset; zero, which keeps nothing apart, where it is too short to have one.
 /// Above the least square, S is far from the least numbers, too: no offset is longer than twice S.
 inline Vec3 direction_of(const Offset& offset) noexcept {
-  constexpr double least_squared = 0x1p-900;
-  return offset.squared > least_squared ? Vec3(offset.vector / std::sqrt(offset.squared))
-                                        : Vec3(Vec3::Zero());
+  constexpr double min_squared = 0x1p-900;
+  return offset.squared > min_squared ? Vec3(offset.vector / std::sqrt(offset.squared)) : Vec3(Vec3::Zero());
 }
 
 /// Does the plane normal to this offset, from the triangle to a point of the path, surely keep ball and

@@ -27,11 +27,11 @@ std::string read_whole(const std::filesystem::path& path) {
     throw MeshError("has " + std::to_string(file.size()) + " bytes; at most " + std::to_string(max_size) +
                     " are read (4 GiB)");
   }
-  constexpr std::size_t least_room = 1 << 16;
+  constexpr std::size_t min_room = 1 << 16;
   std::string bytes(file.size() + 1, '\0');  // the one more finds the end
   std::size_t filled = 0;
   for (;;) {
-    if (filled == bytes.size()) bytes.resize(std::max(2 * filled, least_room));
+    if (filled == bytes.size()) bytes.resize(std::max(2 * filled, min_room));
     const std::size_t more = file.read(bytes.data() + filled, bytes.size() - filled);
     if (more == 0) break;
     filled += more;

@@ -144,14 +144,14 @@ BodyTree::Ref BodyTree::node_for(const Box& added) const noexcept {
   while (nodes_[ref].level > 0) {
     const Node& node = nodes_[ref];
     std::uint32_t best = 0;
-    float least_growth = infinity, least_area = infinity;
+    float min_growth = infinity, min_area = infinity;
     for (std::uint32_t i = 0; i < node.count; ++i) {
       const Box child = box_of(node, i);
       const float area = half_area(child), growth = half_area(united(child, added)) - area;
-      if (!(growth < least_growth || (growth == least_growth && area < least_area))) continue;
+      if (!(growth < min_growth || (growth == min_growth && area < min_area))) continue;
       best = i;
-      least_growth = growth;
-      least_area = area;
+      min_growth = growth;
+      min_area = area;
     }
     ref = node.child[best];
   }
@@ -213,7 +213,7 @@ BodyTree::Ref BodyTree::split(Ref ref, const Entry& added) noexcept {
   for (std::uint32_t i = 0; i < width; ++i) entries[i] = {box_of(nodes_[ref], i), nodes_[ref].child[i]};
   entries[width] = added;
   Entries best = entries;
-  std::size_t best_cut = fewest_of_split;
+  std::size_t best_cut = min_of_split;
   float least = infinity;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // Infinite boxes have no middle; their order does not matter.
@@ -231,17 +231,17 @@ BodyTree::Ref BodyTree::split(Ref ref, const Entry& added) noexcept {
     }
     std::array<float, all> area_from{};  // of the boxes from this one on
     Box box = entries[all - 1].box;
-    for (std::size_t i = all - 1; i >= fewest_of_split; --i) {
+    for (std::size_t i = all - 1; i >= min_of_split; --i) {
       box = united(box, entries[i].box);
       area_from[i] = half_area(box);
     }
     const auto at_added =
         static_cast<std::size_t>(std::ranges::find(entries, added.ref, &Entry::ref) - entries.begin());
     box = entries[0].box;
-    for (std::size_t cut = 1; cut <= all - fewest_of_split; ++cut) {
+    for (std::size_t cut = 1; cut <= all - min_of_split; ++cut) {
       const std::size_t with_added = at_added < cut ? cut : all - cut;
       const float cost = (half_area(box) + area_from[cut]) * (1 + 0x1p-6F * static_cast<float>(with_added));
-      if (cut >= fewest_of_split && cost < least) {
+      if (cut >= min_of_split && cost < least) {
         least = cost;
         best = entries;
         best_cut = cut;
@@ -281,14 +281,14 @@ void BodyTree::join(Ref ref) noexcept {
   const Node& above = nodes_[parent];
   const Entry orphan{box_of(nodes_[ref], 0), nodes_[ref].child[0]};
   std::uint32_t best = none;
-  float least_growth = infinity;
+  float min_growth = infinity;
   for (std::uint32_t i = 0; i < above.count; ++i) {
     if (i == nodes_[ref].slot) continue;
     const Box box = box_of(above, i);
     const float growth = half_area(united(box, orphan.box)) - half_area(box);
-    if (best != none && !(growth < least_growth)) continue;
+    if (best != none && !(growth < min_growth)) continue;
     best = i;
-    least_growth = growth;
+    min_growth = growth;
   }
   const Ref sibling = above.child[best];
   if (nodes_[sibling].count < width) {

@@ -54,7 +54,7 @@ class BodyTree {
   static constexpr Ref none = body_tree::none;
   static constexpr std::uint32_t width = body_tree::width, fewest = body_tree::fewest;
   /// When a node is split, each half gets so many at least.
-  static constexpr std::uint32_t fewest_of_split = 3;
+  static constexpr std::uint32_t min_of_split = 3;
 
   struct Box {
     std::array<float, 3> min, max;

@@ -157,7 +157,7 @@ void NearSurface::remember(const Vec3& point, double distance, const SceneBodies
 
 std::optional<double> NearSurface::start(const Vec3& point, double reach,
                                          const SceneBodies& bodies) noexcept {
-  constexpr std::uint32_t few_served = 4, longest_cooldown = 255;
+  constexpr std::uint32_t few_served = 4, max_cooldown = 255;
   if (!(remembered_ == SceneState::of(bodies))) return std::nullopt;
   if (cooldown_ > 0) {
     --cooldown_;
@@ -168,7 +168,7 @@ std::optional<double> NearSurface::start(const Vec3& point, double reach,
   const double limit = std::min(reach, upper_ + step), margin = steps_ahead_ * step;
   const double covered = limit + 1.5 * margin;
   if (!(step > 0 && covered < infinity)) return std::nullopt;
-  last_cooldown_ = served_ < few_served ? std::min(2 * last_cooldown_ + 1, longest_cooldown) : 0;
+  last_cooldown_ = served_ < few_served ? std::min(2 * last_cooldown_ + 1, max_cooldown) : 0;
   cooldown_ = last_cooldown_;
   // Ahead, so that the point crosses most of what is listed.
   center_ = point + (0.5 * steps_ahead_) * way;

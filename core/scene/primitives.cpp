@@ -22,8 +22,8 @@ void add_quad(std::vector<Corners>& triangles, const std::uint32_t (&corner)[4])
 void expect_primitive_size(const char* shape, const char* size, double value) {
   if (is_primitive_size(value)) return;
   std::ostringstream out;
-  out << "the " << size << " of a " << shape << " is " << value << "; it must be from "
-      << least_primitive_size << " to " << largest_primitive_size;
+  out << "the " << size << " of a " << shape << " is " << value << "; it must be from " << min_primitive_size
+      << " to " << max_primitive_size;
   throw SceneError(out.str());
 }
 

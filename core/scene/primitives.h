@@ -1,5 +1,5 @@
 /// The meshes and axes of bodies that need no mesh file. Each lies about the origin of its frame, and lengths
-/// are those of the scene. docs/scene.md lists them.
+/// are those of the scene. docs/library-scenes.md lists them.
 #pragma once
 
 #include "core/probe.h"
@@ -8,11 +8,11 @@
 namespace touchmark {
 
 /// What a size of a primitive may be, so that nothing that is worked out of one leaves the range of double.
-inline constexpr double least_primitive_size = 1e-30, largest_primitive_size = 1e30;
+inline constexpr double min_primitive_size = 1e-30, max_primitive_size = 1e30;
 
 /// Returns true if a size is in that range.
 constexpr bool is_primitive_size(double size) noexcept {
-  return size >= least_primitive_size && size <= largest_primitive_size;
+  return size >= min_primitive_size && size <= max_primitive_size;
 }
 
 /// Throws SceneError for a size that is out of range, naming the shape, the size and its value.

@@ -13,7 +13,7 @@
 namespace touchmark {
 namespace {
 
-constexpr double least_radius = 0x1p-120, largest_radius = 0x1p200;
+constexpr double min_radius = 0x1p-120, max_radius = 0x1p200;
 
 /// The way is off by a rounding, and the sum of the radii by two. Inside, the place is off by three, and the
 /// kernel by 48.
@@ -24,7 +24,7 @@ PreparedTriangle prepared(const TriangleCorners& corner) noexcept { return {corn
 }  // namespace
 
 void expect_round(const TriangleMesh& axis, double radius) {
-  if (!(radius >= least_radius && radius <= largest_radius))
+  if (!(radius >= min_radius && radius <= max_radius))
     throw SceneError("a round shape's radius is " + std::to_string(radius) +
                      ", and must be from 2^-120 to 2^200");
   if (axis.size() != 1 || axis.corner(0, 1) != axis.corner(0, 2))
@@ -44,7 +44,7 @@ RoundBody::RoundBody(const TriangleMesh& axis, double radius, const PlacedBody& 
   error_ = candidate_.seen.error;
   // All but on the axis the kernel leaves the range of double, but no corner is farther than this.
   const double largest = candidate_.seen.largest;
-  if (fourth_powers_fit(largest) || !(largest < least_radius)) return;
+  if (fourth_powers_fit(largest) || !(largest < min_radius)) return;
   error_ = corners.error_at(largest);
   const double off = 2 * (largest + error_) + 4 * unit_roundoff * radius;
   candidate_.distance = {radius - off, radius + off};

@@ -1,4 +1,4 @@
-/// Many bodies that move, asked as one: each a shape in a pose. docs/scene.md describes it.
+/// Many bodies that move, asked as one: each a shape in a pose. docs/library-scenes.md describes it.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-/// The queries of a scene: docs/scene.md describes their stages. Included by scene.h.
+/// The queries of a scene: docs/library-scenes.md describes their stages. Included by scene.h.
 #pragma once
 
 #include <algorithm>

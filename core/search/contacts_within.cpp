@@ -103,7 +103,7 @@ void ContactsWithin::consider(std::uint32_t slot, const Offset& offset, Work& wo
   ++count_;
   if (question_.into.empty() || distance > farthest_kept_) return;
   const Found found{offset.vector, offset.squared, distance, slot};
-  if (question_.into.size() > most_asked_for) return keep(found);
+  if (question_.into.size() > max_asked_for) return keep(found);
   if (gathered_count_ == gathered_.size()) drop_farther();
   gathered_[gathered_count_++] = found;
 }

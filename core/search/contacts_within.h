@@ -103,7 +103,7 @@ class ContactsWithin {
     std::uint32_t slot;
   };
   /// So many are gathered before the farther ones are dropped, where no more than a few are asked for.
-  static constexpr std::size_t gathered_at_once = 32, most_asked_for = 16;
+  static constexpr std::size_t gathered_at_once = 32, max_asked_for = 16;
 
   double distance_to(const PreparedTriangle& triangle, const Offset& offset) const noexcept;
   bool is_within(const PreparedTriangle& triangle, double distance, Work& work) noexcept;

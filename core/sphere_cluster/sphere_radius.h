@@ -11,9 +11,9 @@ namespace touchmark {
 
 /// |v| without overflow or underflow of the squares, within 8 roundings.
 inline double safe_norm(const Vec3& v) noexcept {
-  constexpr double least_squared = 0x1p-900, most_squared = 0x1p900;
+  constexpr double min_squared = 0x1p-900, max_squared = 0x1p900;
   const double squared = v.squaredNorm();
-  if (squared > least_squared && squared < most_squared) return std::sqrt(squared);
+  if (squared > min_squared && squared < max_squared) return std::sqrt(squared);
   const double largest = v.cwiseAbs().maxCoeff();
   return largest > 0 ? largest * (v / largest).norm() : 0.0;
 }

@@ -7,7 +7,7 @@ from .pictures import METHODS
 HEIGHT, WIDTH = 0.62, 2.15  # of a box, in inches
 
 
-def most_and_least(values, written="{:,.0f}"):
+def min_to_max(values, written="{:,.0f}"):
     low, high = written.format(min(values)), written.format(max(values))
     return low if low == high else f"{low} to {high}"
 
@@ -42,16 +42,16 @@ def draw_flow(plt, directory, table):
                                          f"at level {top}"], 1.7, True)
                for x, (method, name) in zip(spots, METHODS)]
     graphical = box(axes, 2.0, 3.35, "Graphical test", [
-        "creases " + most_and_least(column("crease_deg", top, False), "{:.1f}") + "°",
-        "volume " + most_and_least(column("relative_volume", top, False), "{:.3f}")], 2.6)
+        "creases " + min_to_max(column("crease_deg", top, False), "{:.1f}") + "°",
+        "volume " + min_to_max(column("relative_volume", top, False), "{:.3f}")], 2.6)
     single = box(axes, 5.15, 3.35, "Spheres, a triangle each",
-                 [f"level {top}: " + most_and_least(column("spheres", top, False)), "Figs 4, 6, 9"], 2.5)
+                 [f"level {top}: " + min_to_max(column("spheres", top, False)), "Figs 4, 6, 9"], 2.5)
     clustered = box(axes, 8.0, 3.35, "Spheres, clustered", [
-        f"level {top}: " + most_and_least(column("spheres", top, True)), "Figs 5, 9"], 2.5)
+        f"level {top}: " + min_to_max(column("spheres", top, True)), "Figs 5, 9"], 2.5)
     detection = box(axes, 6.6, 2.0, "Two-level detection", [
         "every sphere, then the triangles of those met",
-        "tests a query, level {}: {} and {}".format(top, most_and_least(column("tests_per_query", top, False)),
-                                                    most_and_least(column("tests_per_query", top, True)))], 3.9)
+        "tests a query, level {}: {} and {}".format(top, min_to_max(column("tests_per_query", top, False)),
+                                                    min_to_max(column("tests_per_query", top, True)))], 3.9)
     for method in methods:
         arrow(axes, mesh, method)
         for test in (graphical, single, clustered):

@@ -129,14 +129,14 @@ class Picture:
         return self.shade.reshape(n, SUPERSAMPLING, n, SUPERSAMPLING).mean(axis=(1, 3))
 
 
-def by_size(size, most_cells=4_000_000):
+def by_size(size, max_cells=4_000_000):
     """Indices in groups of similar size, each small enough for memory."""
     order = numpy.argsort(size, kind="stable")
     begin = 0
     while begin < len(order):
         end = begin + 1
         limit = max(2 * size[order[begin]], 4)
-        while end < len(order) and size[order[end]] <= limit and (end - begin + 1) * size[order[end]] ** 2 <= most_cells:
+        while end < len(order) and size[order[end]] <= limit and (end - begin + 1) * size[order[end]] ** 2 <= max_cells:
             end += 1
         yield order[begin:end]
         begin = end

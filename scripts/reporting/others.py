@@ -6,7 +6,7 @@ from .recording import geometric_mean
 from .tables import cell, framed, head
 from .words import duration, escaped
 
-MOST_ROWS = 400
+MAX_ROWS = 400
 SHOWN = {
     "proxy.csv": ("Proxies", ["method", "options", "family", "probe", "courses", "ticks", "crossings", "pops", "violations",
                               "missed_goals", "jitters", "max_force_jump_n", "p50_ns", "p999_ns", "max_ns"]),
@@ -82,8 +82,8 @@ def plain_table(title, records, columns):
     """All rows, sortable; numbers with few digits."""
     heads = "".join(head(escaped(column.replace("_", " "))) for column in columns)
     body = "".join("<tr>" + "".join(value_cell(column, record.get(column) or "") for column in columns) + "</tr>"
-                   for record in records[:MOST_ROWS])
-    more = f" The first {MOST_ROWS} of {len(records):,} rows." if len(records) > MOST_ROWS else ""
+                   for record in records[:MAX_ROWS])
+    more = f" The first {MAX_ROWS} of {len(records):,} rows." if len(records) > MAX_ROWS else ""
     caption = f"<caption><span>{escaped(title)}.{more}</span></caption>"
     return framed(f"<table>{caption}<thead><tr>{heads}</tr></thead><tbody>{body}</tbody></table>", title, len(records) > LONG)
 

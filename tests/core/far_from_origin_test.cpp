@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/scenes/displaced.h"
+#include "bench/meshes/displaced.h"
 #include "bench/support/random.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
@@ -123,7 +123,7 @@ TEST(CellTreeFarAway, KnowsItAfterAnUpdate) {
     SCOPED_TRACE("2^" + std::to_string(exponent));
     const TriangleMesh mesh = ball_at(exponent);
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      grid::TriangleStore store = grid::TriangleStore::build(bench::scenes::displaced(mesh, seed));
+      grid::TriangleStore store = grid::TriangleStore::build(bench::meshes::displaced(mesh, seed));
       const grid::BoxTree before(store);
       for (const bool lazy : {false, true}) {
         grid::TriangleStore moving = store;
@@ -184,7 +184,7 @@ void expect_of_built_and_updated(const TriangleMesh& mesh, const typename D::Opt
   const BruteForce exact = BruteForce::build(mesh);
   const std::vector<Vec3> centers = centers_near(mesh, 60);
   expect_answers_of_brute_force(D::build(mesh, options), exact, centers, name);
-  D updated = D::build(bench::scenes::displaced(mesh, 1), options);
+  D updated = D::build(bench::meshes::displaced(mesh, 1), options);
   typename D::Session session;
   for (const Vec3& center : centers) updated.nearest({center, 0}, 0.1, session);  // makes what is made later
   updated.update(mesh);

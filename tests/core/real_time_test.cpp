@@ -43,7 +43,7 @@ long page_faults() {
 /// The least of a few passes: the kernel itself may take a page away now and then, a query would in each of
 /// them.
 template <class Action>
-long least_page_faults(const Action& action) {
+long min_page_faults(const Action& action) {
   long least = page_faults();
   for (int pass = 0; pass < 5; ++pass) {
     const long before = page_faults();
@@ -59,7 +59,7 @@ void expect_real_time(const bench::contestants::ContestantSpec& spec) {
   // From the first query on, with those that lazy construction makes.
   EXPECT_TRUE(makes_no_system_call([&] { pass.ask(*detector); })) << spec.text();
   EXPECT_GT(pass.ask(*detector), 199u) << spec.text();
-  EXPECT_EQ(least_page_faults([&] { pass.ask(*detector); }), 0) << spec.text();
+  EXPECT_EQ(min_page_faults([&] { pass.ask(*detector); }), 0) << spec.text();
 }
 
 TEST(RealTime, ASystemCallWouldBeSeen) {
@@ -68,7 +68,7 @@ TEST(RealTime, ASystemCallWouldBeSeen) {
 }
 
 TEST(RealTime, APageFaultWouldBeSeen) {
-  EXPECT_GE(least_page_faults([] {
+  EXPECT_GE(min_page_faults([] {
               constexpr std::size_t page = 4096;
               void* fresh = mmap(nullptr, page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
               *static_cast<volatile char*>(fresh) = 1;

@@ -1,4 +1,4 @@
-// What must not depend on how a scene is written down: its unit, its axes, the order of its triangles.
+// What must not depend on how a mesh is written down: its unit, its axes, the order of its triangles.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -27,29 +27,29 @@ constexpr double unit_roundoff = 0x1p-53;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A mesh and probes whose radii are at the distance, beside it, and far from it.
-struct Scene {
+struct AskedMesh {
   std::string name;
   TriangleMesh mesh;
   std::vector<Probe> probes;
   std::vector<double> scale;  ///< of a probe: the largest coordinate difference to the nearest triangle
 };
 
-std::vector<Scene> scenes() {
-  std::vector<Scene> all;
+std::vector<AskedMesh> asked_meshes() {
+  std::vector<AskedMesh> all;
   for (const NamedMesh& named : corner_case_meshes()) {
     const bench::oracle::Oracle oracle(named.mesh);
     CornerCases cases(90);
-    Scene scene{named.name, named.mesh, {}, {}};
+    AskedMesh asked{named.name, named.mesh, {}, {}};
     for (const Vec3& point : corner_case_points(named.mesh, cases, 30)) {
       const bench::oracle::GroundTruth truth = oracle.solve(point);
       if (!truth.defined || std::isinf(truth.high)) continue;
       for (const double radius : {truth.high, std::nextafter(truth.high, 0.0),
                                   std::nextafter(truth.high, infinity), 2 * truth.high}) {
-        scene.probes.push_back({point, radius});
-        scene.scale.push_back(truth.largest_difference);
+        asked.probes.push_back({point, radius});
+        asked.scale.push_back(truth.largest_difference);
       }
     }
-    all.push_back(std::move(scene));
+    all.push_back(std::move(asked));
   }
   return all;
 }
@@ -98,16 +98,16 @@ void for_every_form(const Check& check) {
 }
 
 TEST(Symmetries, AnotherUnitByAPowerOfTwoChangesNoBit) {
-  for (const Scene& scene : scenes()) {
+  for (const AskedMesh& asked : asked_meshes()) {
     for (const int exponent : {-30, 1, 30}) {
       const double unit = std::ldexp(1.0, exponent);
       std::vector<Probe> probes;
-      for (const Probe& p : scene.probes) probes.push_back({unit * p.center, unit * p.radius});
-      const TriangleMesh mesh = mapped(scene.mesh, [&](const Vec3& v) -> Vec3 { return unit * v; });
+      for (const Probe& p : asked.probes) probes.push_back({unit * p.center, unit * p.radius});
+      const TriangleMesh mesh = mapped(asked.mesh, [&](const Vec3& v) -> Vec3 { return unit * v; });
       for_every_form([&](const char* name, const auto& form) {
-        const auto plain = form.ask(scene.mesh, scene.probes), scaled = form.ask(mesh, probes);
+        const auto plain = form.ask(asked.mesh, asked.probes), scaled = form.ask(mesh, probes);
         for (std::size_t i = 0; i < plain.size(); ++i) {
-          const std::string where = scene.name + ", " + name + ", probe " + std::to_string(i);
+          const std::string where = asked.name + ", " + name + ", probe " + std::to_string(i);
           ASSERT_EQ(plain[i].touches, scaled[i].touches) << where;
           ASSERT_EQ(plain[i].contact.has_value(), scaled[i].contact.has_value()) << where;
           if (!plain[i].contact) continue;
@@ -127,20 +127,20 @@ TEST(Symmetries, AnotherUnitByAPowerOfTwoChangesNoBit) {
 // The order in which squares are added changes, and with it the last bits of a distance, but no decision.
 TEST(Symmetries, OtherAxesChangeNoDecision) {
   const auto turned = [](const Vec3& v) -> Vec3 { return {v.z(), -v.x(), v.y()}; };
-  for (const Scene& scene : scenes()) {
+  for (const AskedMesh& asked : asked_meshes()) {
     std::vector<Probe> probes;
-    for (const Probe& p : scene.probes) probes.push_back({turned(p.center), p.radius});
-    const TriangleMesh mesh = mapped(scene.mesh, turned);
+    for (const Probe& p : asked.probes) probes.push_back({turned(p.center), p.radius});
+    const TriangleMesh mesh = mapped(asked.mesh, turned);
     for_every_form([&](const char* name, const auto& form) {
-      const auto plain = form.ask(scene.mesh, scene.probes), other = form.ask(mesh, probes);
+      const auto plain = form.ask(asked.mesh, asked.probes), other = form.ask(mesh, probes);
       for (std::size_t i = 0; i < plain.size(); ++i) {
-        const std::string where = scene.name + ", " + name + ", probe " + std::to_string(i);
+        const std::string where = asked.name + ", " + name + ", probe " + std::to_string(i);
         ASSERT_EQ(plain[i].touches, other[i].touches) << where;
         ASSERT_EQ(plain[i].contact.has_value(), other[i].contact.has_value()) << where;
         if (!plain[i].contact) continue;
         // Each within 16 roundings of the true distance.
         ASSERT_LE(std::abs(plain[i].contact->distance - other[i].contact->distance),
-                  2 * 16 * unit_roundoff * scene.scale[i])
+                  2 * 16 * unit_roundoff * asked.scale[i])
             << where;
       }
     });
@@ -148,17 +148,17 @@ TEST(Symmetries, OtherAxesChangeNoDecision) {
 }
 
 TEST(Symmetries, AnotherOrderOfTheTrianglesChangesNoBitOfADistance) {
-  for (const Scene& scene : scenes()) {
+  for (const AskedMesh& asked : asked_meshes()) {
     CornerCases cases(91);
-    std::vector<TriangleMesh::Corners> triangles(scene.mesh.triangles().begin(),
-                                                 scene.mesh.triangles().end());
+    std::vector<TriangleMesh::Corners> triangles(asked.mesh.triangles().begin(),
+                                                 asked.mesh.triangles().end());
     cases.shuffle(triangles);
-    const TriangleMesh mesh({scene.mesh.vertices().begin(), scene.mesh.vertices().end()},
+    const TriangleMesh mesh({asked.mesh.vertices().begin(), asked.mesh.vertices().end()},
                             std::move(triangles));
     for_every_form([&](const char* name, const auto& form) {
-      const auto plain = form.ask(scene.mesh, scene.probes), shuffled = form.ask(mesh, scene.probes);
+      const auto plain = form.ask(asked.mesh, asked.probes), shuffled = form.ask(mesh, asked.probes);
       for (std::size_t i = 0; i < plain.size(); ++i) {
-        const std::string where = scene.name + ", " + name + ", probe " + std::to_string(i);
+        const std::string where = asked.name + ", " + name + ", probe " + std::to_string(i);
         ASSERT_EQ(plain[i].touches, shuffled[i].touches) << where;
         ASSERT_EQ(plain[i].contact.has_value(), shuffled[i].contact.has_value()) << where;
         if (plain[i].contact) {

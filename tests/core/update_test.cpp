@@ -146,19 +146,19 @@ void expect_bits_of_brute_force(const std::vector<Frame>& film, const typename D
 }
 
 TEST(Update, GivesTheBitsOfBruteForceOnTheMeshAsItIsNow) {
-  for (const test::NamedMesh& scene : test::test_meshes()) {
+  for (const test::NamedMesh& named : test::test_meshes()) {
     // Where squares of lengths leave the range of double, detectors are built anew, and sweeps not exact.
-    if (scene.size < 1e-100 || scene.size > 1e100) continue;
-    const std::vector<Frame> film = film_of(scene.mesh);
-    expect_bits_of_brute_force<BruteForce>(film, {}, "brute-force, " + scene.name);
-    expect_bits_of_brute_force<AabbTree>(film, {}, "aabb-tree, " + scene.name);
-    expect_bits_of_brute_force<SphereCluster>(film, {}, "sphere-cluster, " + scene.name);
-    expect_bits_of_brute_force<SphereCluster>(film, {.widest = Simd::portable}, "portable, " + scene.name);
+    if (named.size < 1e-100 || named.size > 1e100) continue;
+    const std::vector<Frame> film = film_of(named.mesh);
+    expect_bits_of_brute_force<BruteForce>(film, {}, "brute-force, " + named.name);
+    expect_bits_of_brute_force<AabbTree>(film, {}, "aabb-tree, " + named.name);
+    expect_bits_of_brute_force<SphereCluster>(film, {}, "sphere-cluster, " + named.name);
+    expect_bits_of_brute_force<SphereCluster>(film, {.widest = Simd::portable}, "portable, " + named.name);
     expect_bits_of_brute_force<SphereCluster>(film, {.construction = SphereCluster::Construction::lazy},
-                                              "sphere-cluster, lazy, " + scene.name);
-    expect_bits_of_brute_force<GridGroup>(film, {}, "grid-group, " + scene.name);
+                                              "sphere-cluster, lazy, " + named.name);
+    expect_bits_of_brute_force<GridGroup>(film, {}, "grid-group, " + named.name);
     expect_bits_of_brute_force<GridGroup>(film, {.construction = GridGroup::Construction::lazy},
-                                          "lazy, " + scene.name);
+                                          "lazy, " + named.name);
   }
 }
 

@@ -16,7 +16,7 @@ import time
 
 import mutate
 
-LEAST_PATIENCE_S, PATIENCE = 60, 20  # seconds, and how many times as long as with every mutant asleep
+MIN_PATIENCE_S, PATIENCE = 60, 20  # seconds, and how many times as long as with every mutant asleep
 FAILED = re.compile(r"^\[  FAILED  \] ([^ ,]+)", re.MULTILINE)
 
 
@@ -69,7 +69,7 @@ def main():
     start = time.monotonic()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         asleep = list(pool.map(lambda program: run(program, None), arguments.programs))
-        patience_s = max(LEAST_PATIENCE_S, PATIENCE * (time.monotonic() - start))
+        patience_s = max(MIN_PATIENCE_S, PATIENCE * (time.monotonic() - start))
         if arguments.all_killers:
             for mutant in mutants:
                 found = pool.map(lambda program, name=mutant["name"]: run(program, name), arguments.programs)

@@ -12,7 +12,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/bodies/scene_source.h"
 #include "bench/cli/benchmark_flags.h"
 #include "bench/cli/commands/bench_reports.h"
 #include "bench/cli/extra/bench_suite.h"
@@ -23,13 +22,14 @@
 #include "bench/cli/step_outputs.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/report_table.h"
 #include "bench/results/results_csv.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
 #include "bench/results/steps_file.h"
 #include "bench/results/verification_report.h"
-#include "bench/scenes/scenes.h"
+#include "bench/scenes/scene_source.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/progress.h"
@@ -78,7 +78,7 @@ measurement::Effort effort_for(const BenchOptions& options, const BenchmarkFlags
 }
 
 std::string mesh_of(const contestants::Selectors& selectors) {
-  return selectors.meshes.empty() ? scenes::default_scene() : selectors.meshes.front();
+  return selectors.meshes.empty() ? meshes::default_mesh() : selectors.meshes.front();
 }
 
 /// The whole run, from the checked command line to the last row.
@@ -136,12 +136,12 @@ workload::Workload workload_for(const BenchOptions& options, const contestants::
   const std::size_t steps = options.quick ? 5000 : 20000;
   if (!selectors.scene.empty()) {
     return workload::make_scene_workload(
-        bodies::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection, named,
+        scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection, named,
         steps);
   }
   const std::string mesh = mesh_of(selectors);
   return workload::make_workload(results::without_directories(mesh),
-                                 scenes::load_mesh(mesh, selectors.normalize), selection, named, steps);
+                                 meshes::load_mesh(mesh, selectors.normalize), selection, named, steps);
 }
 
 BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags)

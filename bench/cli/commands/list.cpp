@@ -5,10 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/bodies/generated_bodies.h"
 #include "bench/cli/plugin_option.h"
 #include "bench/cli/program.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
+#include "bench/scenes/generated_bodies.h"
 #include "bench/support/standard_output.h"
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/query_name.h"
@@ -45,15 +45,15 @@ std::string list(const contestants::Roster& roster) {
   for (const contestants::ContestantInfo& contestant : roster.contestants())
     text += description_of(contestant);
   text += "\nscenes: --mesh NAME[@scale=S][@offset=O][@normalize], or a mesh file\n";
-  for (const scenes::SceneInfo& scene : scenes::scenes()) {
-    text += fmt::format("  {:<28}{}{}\n", scene.name, scene.description,
-                        scene.available ? "" : "  (not installed)");
+  for (const meshes::NamedMesh& named : meshes::named_meshes()) {
+    text += fmt::format("  {:<28}{}{}\n", named.name, named.description,
+                        named.available ? "" : "  (not installed)");
   }
   text +=
       "\nscenes of bodies: --scene NAME[:motion=M], a .json or .urdf file, or any file with a node tree\n";
-  for (const bodies::BodySceneInfo& scene : bodies::body_scenes())
+  for (const scenes::BodySceneInfo& scene : scenes::body_scenes())
     text += fmt::format("  {:<28}{}\n", scene.name, scene.description);
-  for (const bodies::BodySceneInfo& motion : bodies::body_motions())
+  for (const scenes::BodySceneInfo& motion : scenes::body_motions())
     text += fmt::format("  {:<28}{}\n", ":motion=" + motion.name, motion.description);
   text +=
       "\ntrajectories: --trajectory NAME, or a motion file: CSV with columns x,y,z and perhaps time_s, "

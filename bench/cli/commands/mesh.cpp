@@ -14,8 +14,8 @@
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
-#include "bench/scenes/mesh_report.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/mesh_report.h"
+#include "bench/meshes/meshes.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/names.h"
 #include "bench/support/standard_output.h"
@@ -47,7 +47,7 @@ struct Metric {
 };
 
 /// Sizes in metres, square metres and cubic metres.
-std::vector<Metric> metrics_of(const scenes::MeshReport& report, const support::LengthUnit& unit) {
+std::vector<Metric> metrics_of(const meshes::MeshReport& report, const support::LengthUnit& unit) {
   const double m = unit.metres;
   const Vec3 size = report.bounds.max - report.bounds.min;
   std::vector<Metric> metrics{{"size_x_m", size.x() * m},
@@ -62,7 +62,7 @@ std::vector<Metric> metrics_of(const scenes::MeshReport& report, const support::
   return metrics;
 }
 
-nlohmann::ordered_json members_of(const scenes::MeshReport& report,
+nlohmann::ordered_json members_of(const meshes::MeshReport& report,
                                   const std::optional<support::LengthUnit>& unit) {
   const auto triple = [](const Vec3& v) { return nlohmann::ordered_json{v.x(), v.y(), v.z()}; };
   nlohmann::ordered_json json;
@@ -109,10 +109,10 @@ void add_info(CLI::App& mesh_command) {
       "         touchmark mesh info part.stl --unit mm\n");
   command->final_callback([options] {
     const std::optional<support::LengthUnit> unit = contestants::checked_unit(options->unit);
-    const scenes::ImportedMesh file = scenes::load_with_frame(options->mesh, options->normalize);
+    const meshes::ImportedMesh file = meshes::load_with_frame(options->mesh, options->normalize);
     support::require_memory(fmt::format("edges and sides of {} triangles", file.mesh.size()),
                             bytes_reported_on * static_cast<double>(file.mesh.size()));
-    nlohmann::ordered_json members = members_of(scenes::report_on(file.mesh), unit);
+    nlohmann::ordered_json members = members_of(meshes::report_on(file.mesh), unit);
     if (!file.axes.empty()) members["axes"] = file.axes;
     if (!file.unit.empty() && !unit) members["unit"] = file.unit;
     if (!file.remark.empty()) members["remark"] = file.remark;

@@ -14,7 +14,7 @@
 #include "bench/cli/commands/mesh_commands.h"
 #include "bench/cli/options.h"
 #include "bench/contestants/selectors.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "bench/support/numbers.h"
 #include "bench/support/standard_output.h"
 #include "core/sphere_cluster/published/triangle_spheres.h"
@@ -91,7 +91,7 @@ void add_mesh_measure(CLI::App& mesh_command) {
   command->final_callback([options] {
     const Vec3 center = parse_center(options->center);
     nlohmann::ordered_json measures =
-        measures_of(scenes::load_mesh(options->mesh, options->normalize), center);
+        measures_of(meshes::load_mesh(options->mesh, options->normalize), center);
     support::StandardOutput out;
     out.write(options->json ? measures.dump(2) + "\n" : lines_of(measures));
     out.finish();

@@ -17,8 +17,8 @@
 #include "bench/cli/commands/mesh_commands.h"
 #include "bench/cli/options.h"
 #include "bench/contestants/selectors.h"
-#include "bench/scenes/mesh_writer.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/mesh_writer.h"
+#include "bench/meshes/meshes.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/numbers.h"
 #include "bench/support/standard_output.h"
@@ -65,7 +65,7 @@ Request check(const SubdivideOptions& options) {
   // Only the paper's tool knows a threshold, so one is taken to ask for that tool's way.
   const bool as_the_tool = options.form.empty() ? threshold->value > 0 : options.form == "meshlab";
   request.subdivision.form = as_the_tool ? SubdivisionForm::meshlab : SubdivisionForm::published;
-  scenes::mesh_format_of(options.output);
+  meshes::mesh_format_of(options.output);
   return request;
 }
 
@@ -119,12 +119,12 @@ void keep_within_memory(SubdivisionOptions& options, std::size_t triangles) {
 
 void subdivide_into_file(const SubdivideOptions& options) {
   Request request = check(options);
-  const TriangleMesh coarse = scenes::load_mesh(options.mesh, options.normalize);
+  const TriangleMesh coarse = meshes::load_mesh(options.mesh, options.normalize);
   request.subdivision.threshold = request.threshold.in_mesh_units(coarse);
   keep_within_memory(request.subdivision, coarse.size());
   warn_of_seams(options, coarse);
   const TriangleMesh fine = subdivide(coarse, request.subdivision);
-  scenes::write_mesh(fine, options.output);
+  meshes::write_mesh(fine, options.output);
   support::StandardOutput out;
   out.write(summary(options, request.subdivision, coarse, fine));
   out.finish();

@@ -11,7 +11,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/bodies/scene_source.h"
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
@@ -19,8 +18,9 @@
 #include "bench/cli/step_visits.h"
 #include "bench/cli/worker_options.h"
 #include "bench/contestants/entry.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/answer_rows.h"
-#include "bench/scenes/scenes.h"
+#include "bench/scenes/scene_source.h"
 #include "bench/support/atomic_file.h"
 #include "bench/support/failures.h"
 #include "bench/support/interrupt.h"
@@ -84,10 +84,10 @@ workload::Workload workload_for(const contestants::Selectors& selectors,
   const std::vector<std::string>& named = selectors.trajectories.empty() ? slide : selectors.trajectories;
   if (!selectors.scene.empty()) {
     return workload::make_scene_workload(
-        bodies::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection, named, 0);
+        scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection, named, 0);
   }
-  const std::string mesh = selectors.meshes.empty() ? scenes::default_scene() : selectors.meshes.front();
-  return workload::make_workload(mesh, scenes::load_mesh(mesh, selectors.normalize), selection, named, 0);
+  const std::string mesh = selectors.meshes.empty() ? meshes::default_mesh() : selectors.meshes.front();
+  return workload::make_workload(mesh, meshes::load_mesh(mesh, selectors.normalize), selection, named, 0);
 }
 
 /// A whole trajectory takes a slow contestant its time; there is Ctrl-C, and --timeout where nobody watches.

@@ -1,5 +1,5 @@
-/// `touchmark verify`: every contestant's answers against the oracle; without --mesh on every scene, also far
-/// from the origin, tiny and huge.
+/// `touchmark verify`: every contestant's answers against the oracle; without --mesh on every named mesh,
+/// also far from the origin, tiny and huge.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/bodies/scene_source.h"
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
@@ -17,12 +16,13 @@
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/junit.h"
 #include "bench/results/results_csv.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
 #include "bench/results/verification_report.h"
-#include "bench/scenes/scenes.h"
+#include "bench/scenes/scene_source.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/progress.h"
@@ -33,7 +33,7 @@
 namespace touchmark::bench::cli {
 namespace {
 
-constexpr std::size_t steps_on_every_scene = 200;
+constexpr std::size_t steps_on_each = 200;
 constexpr std::size_t steps_on_a_mesh = 2000;
 constexpr std::size_t failures_shown = 40;
 
@@ -47,10 +47,10 @@ struct VerifyOptions {
 std::vector<std::string> meshes_for(const VerifyOptions& options) {
   if (!options.selectors.meshes.empty()) return options.selectors.meshes;
   std::vector<std::string> meshes;
-  for (const scenes::SceneInfo& scene : scenes::scenes()) {
-    if (scene.example.empty()) continue;
+  for (const meshes::NamedMesh& named : meshes::named_meshes()) {
+    if (named.example.empty()) continue;
     for (const char* modifier : {"", "@offset=1e6", "@scale=1e-6", "@scale=1e6"}) {
-      meshes.push_back(scene.example + modifier);
+      meshes.push_back(named.example + modifier);
     }
   }
   return meshes;
@@ -96,9 +96,9 @@ class VerifyRun {
 };
 
 void VerifyRun::verify_mesh(const std::string& mesh) {
-  const std::size_t steps = options_.selectors.meshes.empty() ? steps_on_every_scene : steps_on_a_mesh;
+  const std::size_t steps = options_.selectors.meshes.empty() ? steps_on_each : steps_on_a_mesh;
   const workload::Workload workload = workload::make_workload(
-      results::without_directories(mesh), scenes::load_mesh(mesh, options_.selectors.normalize), selection_,
+      results::without_directories(mesh), meshes::load_mesh(mesh, options_.selectors.normalize), selection_,
       trajectories_for(options_), steps);
   verify_workload(workload, mesh);
 }
@@ -106,8 +106,8 @@ void VerifyRun::verify_mesh(const std::string& mesh) {
 void VerifyRun::verify_scene() {
   const contestants::Selectors& selectors = options_.selectors;
   verify_workload(workload::make_scene_workload(
-                      bodies::load_body_scene(selectors.scene, selectors.poses, selectors.packages),
-                      selection_, trajectories_for(options_), steps_on_every_scene),
+                      scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages),
+                      selection_, trajectories_for(options_), steps_on_each),
                   selectors.scene);
 }
 

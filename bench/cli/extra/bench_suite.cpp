@@ -17,11 +17,11 @@
 #include "bench/experiments/suite/suite_score.h"
 #include "bench/experiments/suite/suite_workload.h"
 #include "bench/measurement/comparison.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/report_table.h"
 #include "bench/results/results_csv.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
-#include "bench/scenes/scenes.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/numbers.h"
@@ -81,12 +81,12 @@ class SuiteRun {
   int run();
 
  private:
-  void run_scene(const suite::SuiteScene& scene);
-  void run_cell(measurement::Comparison& comparison, const suite::SceneWorkload& scene, std::size_t which,
+  void run_mesh(const suite::SuiteMesh& planned);
+  void run_cell(measurement::Comparison& comparison, const suite::MeshWorkload& made, std::size_t which,
                 suite::MeasuredCell& measured);
-  void finish_scene(const measurement::Comparison& comparison, const suite::SceneWorkload& scene,
-                    std::vector<suite::MeasuredCell> measured);
-  void add_unmeasured(const suite::SuiteScene& scene, const std::string& mesh);
+  void finish_mesh(const measurement::Comparison& comparison, const suite::MeshWorkload& made,
+                   std::vector<suite::MeasuredCell> measured);
+  void add_unmeasured(const suite::SuiteMesh& planned, const std::string& mesh);
   void save(bool finished) const;
   std::string run_json(bool finished) const;
   std::vector<std::string> ours() const;
@@ -107,10 +107,10 @@ class SuiteRun {
   support::ProgressLine progress_;
   support::StandardOutput out_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::size_t scenes_done_ = 0, cells_done_ = 0;
+  std::size_t meshes_done_ = 0, cells_done_ = 0;
   std::vector<measurement::ResultRow> rows_;
   std::vector<suite::SuiteRow> scored_;
-  std::vector<std::string> runs_;  // run.json of each scene
+  std::vector<std::string> runs_;  // run.json of each mesh
 };
 
 SuiteRun::SuiteRun(const ProgramContext& context, const SuiteOptions& options)
@@ -150,46 +150,46 @@ std::string SuiteRun::time_left() const {
   return fmt::format(", about {:.0f} min left", std::min(left, extent_.minutes));
 }
 
-/// Every scene has its share of the time, and what one leaves over is for those after it.
-void SuiteRun::run_scene(const suite::SuiteScene& scene) {
-  progress_.show(fmt::format("{}: making the mesh and the trajectories{}", scene.mesh, time_left()));
+/// Every mesh has its share of the time, and what one leaves over is for those after it.
+void SuiteRun::run_mesh(const suite::SuiteMesh& planned) {
+  progress_.show(fmt::format("{}: making the mesh and the trajectories{}", planned.mesh, time_left()));
   const double left = extent_.minutes - minutes();
-  const double until = minutes() + left / static_cast<double>(plan_.scenes.size() - scenes_done_);
-  const suite::SceneWorkload made = suite::workload_of(
-      scene, scenes::load_mesh(scene.mesh, options_.selectors.normalize), extent_.steps, selection_.seed);
+  const double until = minutes() + left / static_cast<double>(plan_.meshes.size() - meshes_done_);
+  const suite::MeshWorkload made = suite::workload_of(
+      planned, meshes::load_mesh(planned.mesh, options_.selectors.normalize), extent_.steps, selection_.seed);
   progress_.show(fmt::format("{}: preparing the oracle{}", made.workload.mesh_name, time_left()));
   measurement::Comparison comparison(roster_, made.workload, selection_.contestants, workers_,
                                      description_.effort, selection_.seed);
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
-    progress_.show(fmt::format("{} of {}, {}, {}: {}{}", scenes_done_ + 1, plan_.scenes.size(),
+    progress_.show(fmt::format("{} of {}, {}, {}: {}{}", meshes_done_ + 1, plan_.meshes.size(),
                                made.workload.mesh_name, trajectory, contestant, time_left()));
   });
   std::vector<suite::MeasuredCell> measured;
-  for (const suite::SuiteCell& cell : scene.cells)
+  for (const suite::SuiteCell& cell : planned.cells)
     measured.push_back({made.workload.mesh_name, made.workload.mesh.size(), cell, {}});
   try {
-    for (std::size_t i = 0; i < scene.cells.size() && (i == 0 || minutes() < until); ++i)
+    for (std::size_t i = 0; i < planned.cells.size() && (i == 0 || minutes() < until); ++i)
       run_cell(comparison, made, i, measured[i]);
   } catch (const support::Interrupted&) {
-    finish_scene(comparison, made, std::move(measured));
+    finish_mesh(comparison, made, std::move(measured));
     throw;
   }
-  cells_done_ += scene.cells.size();
-  ++scenes_done_;
-  finish_scene(comparison, made, std::move(measured));
+  cells_done_ += planned.cells.size();
+  ++meshes_done_;
+  finish_mesh(comparison, made, std::move(measured));
 }
 
-void SuiteRun::run_cell(measurement::Comparison& comparison, const suite::SceneWorkload& scene,
+void SuiteRun::run_cell(measurement::Comparison& comparison, const suite::MeshWorkload& made,
                         std::size_t which, suite::MeasuredCell& measured) {
   measurement::Effort effort = extent_.effort;
   if (!measured.cell.cold) effort.cold_passes = 0;
   comparison.set_effort(effort);
-  measured.rows = comparison.run(scene.trace_of[which], measured.cell.query);
+  measured.rows = comparison.run(made.trace_of[which], measured.cell.query);
   measured.conclusive = comparison.steadiness().empty() || comparison.steadiness().back().conclusive();
 }
 
-void SuiteRun::finish_scene(const measurement::Comparison& comparison, const suite::SceneWorkload& scene,
-                            std::vector<suite::MeasuredCell> measured) {
+void SuiteRun::finish_mesh(const measurement::Comparison& comparison, const suite::MeshWorkload& made,
+                           std::vector<suite::MeasuredCell> measured) {
   const std::vector<std::string> names = ours();
   for (suite::MeasuredCell& cell : measured) {
     std::ranges::move(
@@ -198,19 +198,19 @@ void SuiteRun::finish_scene(const measurement::Comparison& comparison, const sui
     std::ranges::move(cell.rows, std::back_inserter(rows_));
   }
   description_.steadiness = comparison.steadiness();
-  runs_.push_back(results::run_json(description_, scene.workload, comparison.contestants()));
-  save(scenes_done_ == plan_.scenes.size());
+  runs_.push_back(results::run_json(description_, made.workload, comparison.contestants()));
+  save(meshes_done_ == plan_.meshes.size());
 }
 
-/// The cells of a scene that was not begun.
-void SuiteRun::add_unmeasured(const suite::SuiteScene& scene, const std::string& mesh) {
-  for (const suite::SuiteCell& cell : scene.cells) {
+/// The cells of a mesh that was not begun.
+void SuiteRun::add_unmeasured(const suite::SuiteMesh& planned, const std::string& mesh) {
+  for (const suite::SuiteCell& cell : planned.cells) {
     std::ranges::move(suite::score({mesh, 0, cell, {}}, ours(), [](const std::string&) { return true; }),
                       std::back_inserter(scored_));
   }
 }
 
-/// The trajectories of all scenes, and what the suite adds.
+/// The trajectories of all meshes, and what the suite adds.
 std::string SuiteRun::run_json(bool finished) const {
   auto json = nlohmann::ordered_json::parse(results::joined_run_json(runs_, finished));
   auto trajectories = nlohmann::ordered_json::array();
@@ -224,7 +224,7 @@ std::string SuiteRun::run_json(bool finished) const {
   json["trajectories"] = trajectories;
   json["queries"] = {"touches", "nearest", "sweep"};
   json.erase("asked");  // not every motion with every query
-  json["suite"] = {{"scenes", plan_.scenes.size()},
+  json["suite"] = {{"scenes", plan_.meshes.size()},
                    {"cells", plan_.cells()},
                    {"cells_of_a_scene", suite::every_cell().size()},
                    {"minutes", nlohmann::ordered_json(extent_.minutes)},
@@ -242,19 +242,19 @@ void SuiteRun::save(bool finished) const {
 int SuiteRun::run() {
   support::watch_for_interrupts();
   out_.write(fmt::format("suite: {} scenes, {} cells of {}, at most about {:g} minutes\n",
-                         plan_.scenes.size(), plan_.cells(), plan_.scenes.size() * suite::every_cell().size(),
+                         plan_.meshes.size(), plan_.cells(), plan_.meshes.size() * suite::every_cell().size(),
                          extent_.minutes));
   out_.finish();
   bool interrupted = false;
   try {
-    for (const suite::SuiteScene& scene : plan_.scenes) run_scene(scene);
+    for (const suite::SuiteMesh& planned : plan_.meshes) run_mesh(planned);
   } catch (const support::Interrupted&) {
     interrupted = true;
   }
   progress_.clear();
   if (interrupted) {
-    for (std::size_t i = runs_.size(); i < plan_.scenes.size(); ++i)
-      add_unmeasured(plan_.scenes[i], results::without_directories(plan_.scenes[i].mesh));
+    for (std::size_t i = runs_.size(); i < plan_.meshes.size(); ++i)
+      add_unmeasured(plan_.meshes[i], results::without_directories(plan_.meshes[i].mesh));
     save(false);
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
   }

@@ -1,4 +1,4 @@
-/// `touchmark bench --suite`: many scenes, motions, questions and reaches, and one score.
+/// `touchmark bench --suite`: many meshes, motions, questions and reaches, and one score.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ namespace touchmark::bench::cli {
 struct SuiteOptions {
   contestants::Selectors selectors;
   std::string out;
-  std::string cells;    ///< a scene; empty: by the effort
+  std::string cells;    ///< a mesh; empty: by the effort
   std::string minutes;  ///< at most, about; empty: by the effort
   bool quick = false;
   WorkerSelectors workers;

@@ -14,7 +14,6 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/bodies/scene_source.h"
 #include "bench/cli/extra/choose_options.h"
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/worker_options.h"
@@ -24,10 +23,11 @@
 #include "bench/experiments/choose/choose_motions.h"
 #include "bench/experiments/choose/choose_report.h"
 #include "bench/measurement/comparison.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/results_csv.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
-#include "bench/scenes/scenes.h"
+#include "bench/scenes/scene_source.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/standard_output.h"
@@ -101,12 +101,12 @@ workload::Workload workload_for(const ChooseOptions& options, const workload::Se
   const contestants::Selectors& selectors = options.selectors;
   if (!selectors.scene.empty())
     return choose::workload_by_time(
-        bodies::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection,
+        scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection,
         motions_of(options), rate_hz);
   const std::string mesh =
-      options.selectors.meshes.empty() ? scenes::default_scene() : options.selectors.meshes.front();
+      options.selectors.meshes.empty() ? meshes::default_mesh() : options.selectors.meshes.front();
   return choose::workload_by_time(results::without_directories(mesh),
-                                  scenes::load_mesh(mesh, options.selectors.normalize), selection,
+                                  meshes::load_mesh(mesh, options.selectors.normalize), selection,
                                   motions_of(options), rate_hz);
 }
 

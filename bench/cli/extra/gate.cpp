@@ -11,15 +11,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/bodies/scene_source.h"
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/extra/gate_options.h"
+#include "bench/meshes/meshes.h"
 #include "bench/regression/gate/baseline.h"
 #include "bench/regression/gate/gate_report.h"
 #include "bench/regression/gate/paired_batch.h"
 #include "bench/results/build_info.h"
 #include "bench/results/system_info.h"
-#include "bench/scenes/scenes.h"
+#include "bench/scenes/scene_source.h"
 #include "bench/support/atomic_file.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
@@ -74,11 +74,11 @@ workload::Workload workload_for(const GateOptions& options, const contestants::C
       selectors.trajectories.empty() ? std::vector<std::string>{"slide"} : selectors.trajectories;
   if (!selectors.scene.empty())
     return workload::make_scene_workload(
-        bodies::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection, named,
+        scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection, named,
         steps);
-  const std::string mesh = selectors.meshes.empty() ? scenes::default_scene() : selectors.meshes.front();
+  const std::string mesh = selectors.meshes.empty() ? meshes::default_mesh() : selectors.meshes.front();
   return workload::make_workload(results::without_directories(mesh),
-                                 scenes::load_mesh(mesh, selectors.normalize), selection, named, steps);
+                                 meshes::load_mesh(mesh, selectors.normalize), selection, named, steps);
 }
 
 workers::WorkerOptions workers_for(const GateOptions& options) {

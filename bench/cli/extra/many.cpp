@@ -13,9 +13,9 @@
 #include "bench/cli/plugin_option.h"
 #include "bench/experiments/many/many_run.h"
 #include "bench/experiments/papers/paper_options.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/system_info.h"
-#include "bench/scenes/scenes.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/progress.h"
@@ -95,13 +95,13 @@ ManySettings checked(const ManyCommandOptions& options, const contestants::Roste
 int run_many(const ProgramContext& context, const ManyCommandOptions& options) {
   const ManySettings settings = checked(options, context.roster);
   const support::Length reach_text = papers::checked_finite_length("--reach", options.reach);
-  const std::string name = options.mesh.empty() ? scenes::default_scene() : options.mesh;
+  const std::string name = options.mesh.empty() ? meshes::default_mesh() : options.mesh;
   std::optional<results::ResultsFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out);
   support::restore_denormals();
   support::ProgressLine progress;
   progress.show(fmt::format("{}: building", name));
-  const TriangleMesh mesh = scenes::load_mesh(name, options.normalize);
+  const TriangleMesh mesh = meshes::load_mesh(name, options.normalize);
   const double reach = reach_text.in_mesh_units(mesh);
   many::ManyRun run(context.roster, settings.contestants, results::without_directories(name), mesh);
   support::watch_for_interrupts();

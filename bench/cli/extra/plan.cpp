@@ -14,8 +14,8 @@
 #include "bench/cli/options.h"
 #include "bench/cli/plugin_option.h"
 #include "bench/cli/selector_options.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/build_info.h"
-#include "bench/scenes/scenes.h"
 #include "bench/support/atomic_file.h"
 #include "bench/support/progress.h"
 #include "bench/support/standard_output.h"
@@ -62,7 +62,7 @@ class Planner {
   }
 
   batch::Manifest plan() {
-    for (const std::string& mesh : or_else(options_.meshes, {scenes::default_scene()})) plan_mesh(mesh);
+    for (const std::string& mesh : or_else(options_.meshes, {meshes::default_mesh()})) plan_mesh(mesh);
     return std::move(manifest_);
   }
 
@@ -70,7 +70,7 @@ class Planner {
   void plan_mesh(const std::string& mesh);
   void plan_traces(const std::string& mesh, const TriangleMesh& loaded,
                    const contestants::Selectors& selectors);
-  void add_scene(batch::SweepScene scene, const std::vector<contestants::ContestantSpec>& contestants);
+  void add_mesh(batch::BatchMesh planned, const std::vector<contestants::ContestantSpec>& contestants);
 
   const contestants::Roster& roster_;
   const PlanOptions& options_;
@@ -81,7 +81,7 @@ class Planner {
 };
 
 void Planner::plan_mesh(const std::string& mesh) {
-  const TriangleMesh loaded = scenes::load_mesh(mesh, options_.normalize);
+  const TriangleMesh loaded = meshes::load_mesh(mesh, options_.normalize);
   contestants::Selectors selectors;
   selectors.detectors = options_.detectors;
   selectors.steps = options_.steps;
@@ -109,32 +109,32 @@ void Planner::plan_traces(const std::string& mesh, const TriangleMesh& loaded,
       workload::make_workload(mesh, loaded, selection, trajectories, default_steps);
   for (std::size_t i = 0; i < trajectories.size(); ++i) {
     for (const workload::Query query : queries_) {
-      batch::SweepScene scene{mesh,
-                              options_.normalize,
-                              workload::hash_of(loaded),
-                              trajectories[i],
-                              workload::hash_of(workload.traces[i]),
-                              workload.traces[i].size(),
-                              selection.seed,
-                              selectors.radius,
-                              selectors.reach,
-                              query,
-                              {},
-                              options_.motion};
-      add_scene(std::move(scene), selection.contestants);
+      batch::BatchMesh planned{mesh,
+                               options_.normalize,
+                               workload::hash_of(loaded),
+                               trajectories[i],
+                               workload::hash_of(workload.traces[i]),
+                               workload.traces[i].size(),
+                               selection.seed,
+                               selectors.radius,
+                               selectors.reach,
+                               query,
+                               {},
+                               options_.motion};
+      add_mesh(std::move(planned), selection.contestants);
     }
   }
 }
 
 /// A job that was planned before, by its content, is not planned again.
-void Planner::add_scene(batch::SweepScene scene,
-                        const std::vector<contestants::ContestantSpec>& contestants) {
+void Planner::add_mesh(batch::BatchMesh planned,
+                       const std::vector<contestants::ContestantSpec>& contestants) {
   for (const contestants::ContestantSpec& contestant : contestants) {
     const std::string id =
-        batch::job_id(scene, batch::identity_of(contestant), manifest_.effort, manifest_.version);
-    if (ids_.insert(id).second) scene.jobs.push_back({id, contestant.text()});
+        batch::job_id(planned, batch::identity_of(contestant), manifest_.effort, manifest_.version);
+    if (ids_.insert(id).second) planned.jobs.push_back({id, contestant.text()});
   }
-  if (!scene.jobs.empty()) manifest_.scenes.push_back(std::move(scene));
+  if (!planned.jobs.empty()) manifest_.meshes.push_back(std::move(planned));
 }
 
 void run(const contestants::Roster& roster, const PlanOptions& options) {
@@ -148,7 +148,7 @@ void run(const contestants::Roster& roster, const PlanOptions& options) {
   support::AtomicFile file(options.out);
   file.write(manifest.json());
   file.commit();
-  fmt::print(stderr, "touchmark: {} jobs in {} scenes\n", manifest.jobs(), manifest.scenes.size());
+  fmt::print(stderr, "touchmark: {} jobs in {} scenes\n", manifest.jobs(), manifest.meshes.size());
 }
 
 }  // namespace

@@ -20,8 +20,8 @@
 #include "bench/experiments/proxy/proxy_run.h"
 #include "bench/experiments/proxy/proxy_trace.h"
 #include "bench/experiments/proxy/stab.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/results_folder.h"
-#include "bench/scenes/scenes.h"
 #include "bench/support/atomic_file.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
@@ -72,7 +72,7 @@ proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::R
 
 /// The user's own mesh and motion.
 proxy::Course course_of(const ProxyOptions& options, std::uint64_t seed) {
-  TriangleMesh mesh = scenes::load_mesh(options.mesh, false);
+  TriangleMesh mesh = meshes::load_mesh(options.mesh, false);
   const std::optional<support::Length> length = support::parse_length(options.radius);
   if (!length || !std::isfinite(length->value))
     throw std::invalid_argument(

@@ -38,7 +38,7 @@ struct Shard {
   std::size_t which = 1;  ///< from 1
   std::size_t count = 1;
 
-  bool has(std::size_t scene) const { return scene % count == which - 1; }
+  bool has(std::size_t index) const { return index % count == which - 1; }
 };
 
 Shard checked_shard(const std::string& text) {
@@ -51,9 +51,9 @@ Shard checked_shard(const std::string& text) {
   return {which, count};
 }
 
-class SweepRun {
+class BatchRun {
  public:
-  SweepRun(ProgramContext& context, const RunOptions& options)
+  BatchRun(ProgramContext& context, const RunOptions& options)
       : context_(context),
         options_(options),
         manifest_(batch::Manifest::read(options.manifest)),
@@ -72,10 +72,10 @@ class SweepRun {
 
  private:
   void load_planned_plugins(ProgramContext& context) const;
-  void run_scene(const batch::SweepScene& scene);
-  std::vector<contestants::ContestantSpec> missing_of(const batch::SweepScene& scene) const;
-  workload::Workload planned_workload(const batch::SweepScene& scene) const;
-  results::RunDescription description_of(const batch::SweepScene& scene) const;
+  void run_mesh(const batch::BatchMesh& planned);
+  std::vector<contestants::ContestantSpec> missing_of(const batch::BatchMesh& planned) const;
+  workload::Workload planned_workload(const batch::BatchMesh& planned) const;
+  results::RunDescription description_of(const batch::BatchMesh& planned) const;
 
   const ProgramContext& context_;
   const RunOptions& options_;
@@ -93,18 +93,18 @@ void expect_planned(const std::string& what, const std::string& name, std::uint6
       "{} \"{}\" is not the one that was planned: fnv1a {:016x}, not {:016x}", what, name, now, then));
 }
 
-void SweepRun::load_planned_plugins(ProgramContext& context) const {
-  for (const batch::SweepPlugin& plugin : manifest_.plugins) {
+void BatchRun::load_planned_plugins(ProgramContext& context) const {
+  for (const batch::BatchPlugin& plugin : manifest_.plugins) {
     expect_planned("plug-in", plugin.file, plugin.hash, batch::plugin_of(plugin.file).hash);
     load_plugins(context, {plugin.file});
   }
 }
 
-std::vector<contestants::ContestantSpec> SweepRun::missing_of(const batch::SweepScene& scene) const {
+std::vector<contestants::ContestantSpec> BatchRun::missing_of(const batch::BatchMesh& planned) const {
   std::vector<contestants::ContestantSpec> missing;
-  for (const batch::SweepJob& job : scene.jobs) {
+  for (const batch::BatchJob& job : planned.jobs) {
     contestants::ContestantSpec spec = context_.roster.parse(job.detector);
-    if (batch::job_id(scene, batch::identity_of(spec), manifest_.effort, manifest_.version) != job.id) {
+    if (batch::job_id(planned, batch::identity_of(spec), manifest_.effort, manifest_.version) != job.id) {
       throw std::invalid_argument(
           fmt::format("{}: job {} does not have the id of what it describes", options_.manifest, job.id));
     }
@@ -113,50 +113,50 @@ std::vector<contestants::ContestantSpec> SweepRun::missing_of(const batch::Sweep
   return missing;
 }
 
-workload::Workload SweepRun::planned_workload(const batch::SweepScene& scene) const {
-  workload::Workload workload = batch::workload_of(scene, context_.roster);
-  expect_planned("mesh", scene.mesh, scene.mesh_hash, workload::hash_of(workload.mesh));
-  expect_planned("trajectory", scene.trajectory, scene.trace_hash,
+workload::Workload BatchRun::planned_workload(const batch::BatchMesh& planned) const {
+  workload::Workload workload = batch::workload_of(planned, context_.roster);
+  expect_planned("mesh", planned.mesh, planned.mesh_hash, workload::hash_of(workload.mesh));
+  expect_planned("trajectory", planned.trajectory, planned.trace_hash,
                  workload::hash_of(workload.traces.front()));
   return workload;
 }
 
-results::RunDescription SweepRun::description_of(const batch::SweepScene& scene) const {
+results::RunDescription BatchRun::description_of(const batch::BatchMesh& planned) const {
   results::RunDescription description = results::begun_run(context_.argc, context_.argv);
-  description.query = scene.query;
-  description.seed = scene.seed;
+  description.query = planned.query;
+  description.seed = planned.seed;
   description.effort = effort_;
   // Runs that only verify may go side by side, and would all sit on that one core.
   if (effort_.repetitions > 0) description.core = results::core_for_workers();
   return description;
 }
 
-void SweepRun::run_scene(const batch::SweepScene& scene) {
-  const std::vector<contestants::ContestantSpec> missing = missing_of(scene);
-  skipped_ += scene.jobs.size() - missing.size();
+void BatchRun::run_mesh(const batch::BatchMesh& planned) {
+  const std::vector<contestants::ContestantSpec> missing = missing_of(planned);
+  skipped_ += planned.jobs.size() - missing.size();
   if (missing.empty()) return;
-  if (missing.size() < scene.jobs.size() && effort_.repetitions > 0) {
+  if (missing.size() < planned.jobs.size() && effort_.repetitions > 0) {
     progress_.clear();
     fmt::print(
         stderr,
         "touchmark: {}, {}: {} of {} jobs were finished before; the others get another run_id: compare times "
         "within one\n",
-        scene.mesh, scene.trajectory, scene.jobs.size() - missing.size(), scene.jobs.size());
+        planned.mesh, planned.trajectory, planned.jobs.size() - missing.size(), planned.jobs.size());
   }
-  const workload::Workload workload = planned_workload(scene);
-  results::RunDescription description = description_of(scene);
+  const workload::Workload workload = planned_workload(planned);
+  results::RunDescription description = description_of(planned);
   workers::WorkerOptions workers = worker_options(options_.workers);
   workers.core = description.core;
   workers.calibrate_clock = effort_.repetitions > 0;
-  measurement::Comparison comparison(context_.roster, workload, missing, workers, effort_, scene.seed);
+  measurement::Comparison comparison(context_.roster, workload, missing, workers, effort_, planned.seed);
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
     progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
   });
-  const std::vector<measurement::ResultRow> rows = comparison.run(0, scene.query);
+  const std::vector<measurement::ResultRow> rows = comparison.run(0, planned.query);
   description.steadiness = comparison.steadiness();
   const auto run = nlohmann::json::parse(results::run_json(description, workload, comparison.contestants()));
   for (const measurement::ResultRow& row : rows) {
-    const std::string id = batch::job_id(scene, batch::identity_of(context_.roster.parse(row.contestant())),
+    const std::string id = batch::job_id(planned, batch::identity_of(context_.roster.parse(row.contestant())),
                                          manifest_.effort, manifest_.version);
     const batch::JobResult job{id, results::machine_fingerprint(), run,
                                results::fields_of(results::results_columns(), row, description.run_id)};
@@ -165,13 +165,13 @@ void SweepRun::run_scene(const batch::SweepScene& scene) {
   }
 }
 
-int SweepRun::run() {
+int BatchRun::run() {
   support::watch_for_interrupts();
   support::restore_denormals();
   int status = support::exit_done;
   try {
-    for (std::size_t scene = 0; scene < manifest_.scenes.size(); ++scene) {
-      if (shard_.has(scene)) run_scene(manifest_.scenes[scene]);
+    for (std::size_t index = 0; index < manifest_.meshes.size(); ++index) {
+      if (shard_.has(index)) run_mesh(manifest_.meshes[index]);
     }
   } catch (const support::Interrupted&) {
     status = support::exit_interrupted;
@@ -199,7 +199,7 @@ void add_run(CLI::App& program, ProgramContext& context) {
       "they\n"
       "were when the sweep was planned.\n"
       "Example: touchmark run --manifest sweep.json --shard 3/8 --out jobs\n");
-  command->final_callback([options, &context] { context.status = SweepRun(context, *options).run(); });
+  command->final_callback([options, &context] { context.status = BatchRun(context, *options).run(); });
 }
 
 }  // namespace touchmark::bench::cli

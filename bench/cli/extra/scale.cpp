@@ -23,11 +23,11 @@
 #include "bench/experiments/scaling/growth.h"
 #include "bench/experiments/scaling/mesh_sizes.h"
 #include "bench/measurement/comparison.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/report_table.h"
 #include "bench/results/results_csv.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
-#include "bench/scenes/scenes.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
@@ -134,7 +134,7 @@ ScaleRun::ScaleRun(const ProgramContext& context, const ScaleOptions& options)
   // A name that is wrong should not be found out after the smaller meshes.
   for (const std::string& mesh : meshes_) {
     if (!scaling::comes_in_sizes(scaling::family_of(mesh)))
-      scenes::load_mesh(mesh, options.selectors.normalize);
+      meshes::load_mesh(mesh, options.selectors.normalize);
   }
   if (!options.out.empty()) folder_.emplace(options.out);
   if (options.workers.timeout.empty()) workers_.build_timeout = default_build_timeout;
@@ -206,7 +206,7 @@ void ScaleRun::run_mesh(const std::string& name) {
   const contestants::Selectors& selectors = options_.selectors;
   const std::vector<std::string> asked =
       selectors.trajectories.empty() ? std::vector<std::string>{"slide"} : selectors.trajectories;
-  TriangleMesh mesh = scenes::load_mesh(name, selectors.normalize);
+  TriangleMesh mesh = meshes::load_mesh(name, selectors.normalize);
   contestants::CheckedSelectors selection = selection_;
   std::vector<std::string> moves = asked;
   if (shrinks_ != scaling::Shrinks::nothing) {

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/bodies/scene_source.h"
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/extra/servo_options.h"
 #include "bench/cli/repeat_command.h"
@@ -20,9 +19,10 @@
 #include "bench/experiments/servo/servo_report.h"
 #include "bench/experiments/servo/servo_run.h"
 #include "bench/experiments/servo/servo_trace.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
-#include "bench/scenes/scenes.h"
+#include "bench/scenes/scene_source.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/progress.h"
@@ -80,7 +80,7 @@ ServoCommand::ServoCommand(const ProgramContext& context, const ServoOptions& op
       core_(checked_core(options)),
       settings_(checked_settings(options, core_)),
       selection_(contestants::check(options.selectors, context.roster)),
-      mesh_(options.selectors.meshes.empty() ? scenes::default_scene() : options.selectors.meshes.front()),
+      mesh_(options.selectors.meshes.empty() ? meshes::default_mesh() : options.selectors.meshes.front()),
       trajectory_(checked_trajectory(options)),
       description_(results::begun_run(context.argc, context.argv)),
       host_(servo::read_real_time_host(core_)),
@@ -98,9 +98,9 @@ workload::Workload ServoCommand::workload_by_time() {
   const contestants::Selectors& selectors = options_.selectors;
   if (!selectors.scene.empty())
     return servo::scene_workload_by_time(
-        bodies::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection_,
+        scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection_,
         {trajectory_}, settings_);
-  TriangleMesh mesh = scenes::load_mesh(mesh_, options_.selectors.normalize);
+  TriangleMesh mesh = meshes::load_mesh(mesh_, options_.selectors.normalize);
   static_cast<workload::Selection&>(selection_) =
       servo::selection_by_time(selection_, mesh, trajectory_, settings_.rate_hz);
   return servo::workload_by_time(results::without_directories(mesh_), std::move(mesh), selection_,

@@ -27,7 +27,7 @@ namespace servo = experiments::servo;
 namespace {
 
 constexpr double max_rate_hz = 100'000;
-constexpr double longest_s = 1e6;
+constexpr double max_s = 1e6;
 
 double checked_number(const char* option, const std::string& text, bool zero_too, double most) {
   const std::optional<double> value = support::parse_number(text);
@@ -73,7 +73,7 @@ int checked_core(const ServoOptions& options) {
 servo::ServoSettings checked_settings(const ServoOptions& options, int core) {
   servo::ServoSettings settings;
   settings.rate_hz = checked_number("--rate", options.selectors.motion.rate, false, max_rate_hz);
-  const double seconds = checked_number("--seconds", options.seconds, false, longest_s);
+  const double seconds = checked_number("--seconds", options.seconds, false, max_s);
   settings.ticks = static_cast<std::uint64_t>(std::max(std::round(seconds * settings.rate_hz), 1.0));
   settings.work_us = checked_number("--work", options.work_us, true, 1e6);
   const std::optional<servo::Load> load = servo::load_named(options.load);

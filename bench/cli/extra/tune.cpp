@@ -14,8 +14,8 @@
 #include "bench/experiments/papers/frontier.h"
 #include "bench/experiments/papers/paper_options.h"
 #include "bench/experiments/papers/tuning.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/results_folder.h"
-#include "bench/scenes/scenes.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/progress.h"
@@ -67,7 +67,7 @@ papers::FrontierSettings checked(const TuneOptions& options, const TriangleMesh&
   settings.steps = papers::checked_number("--steps", options.common.steps, 1, 1'000'000, quick ? 50 : 1000);
   settings.seed = papers::checked_seed(options.common.seed);
   if (!options.reference.empty())
-    settings.reference = scenes::load_scene(options.reference);
+    settings.reference = meshes::load_mesh(options.reference);
   else if (papers::sharp_edges(mesh).share >= papers::mostly_sharp)
     settings.reference = mesh;
   if (quick) {
@@ -138,7 +138,7 @@ std::string reference_note(const TuneOptions& options, const TriangleMesh& mesh,
 
 int run(const TuneOptions& options) {
   const double rate = papers::checked_positive("--rate", options.rate);
-  const TriangleMesh mesh = scenes::load_scene(options.mesh);
+  const TriangleMesh mesh = meshes::load_mesh(options.mesh);
   const papers::FrontierSettings settings = checked(options, mesh);
   std::optional<results::ResultsFolder> folder;
   if (!options.common.out.empty()) folder.emplace(options.common.out);

@@ -16,9 +16,9 @@
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/update/update_row.h"
 #include "bench/experiments/update/update_run.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
-#include "bench/scenes/scenes.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/progress.h"
@@ -87,11 +87,11 @@ int run_update(const ProgramContext& context, const UpdateOptions& options) {
   if (!options.out.empty()) folder.emplace(options.out);
 
   const std::string name =
-      options.selectors.meshes.empty() ? scenes::default_scene() : options.selectors.meshes.front();
+      options.selectors.meshes.empty() ? meshes::default_mesh() : options.selectors.meshes.front();
   support::ProgressLine progress;
   progress.show(fmt::format("{}: deforming it", results::without_directories(name)));
   update::UpdateRun run(context.roster, selection.contestants, selection, results::without_directories(name),
-                        scenes::load_mesh(name, options.selectors.normalize), shares, trajectory, workers);
+                        meshes::load_mesh(name, options.selectors.normalize), shares, trajectory, workers);
   support::watch_for_interrupts();
   std::vector<update::UpdateRow> rows;
   int status = support::exit_done;

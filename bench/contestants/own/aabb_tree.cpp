@@ -37,7 +37,7 @@ ContestantInfo aabb_tree_entry() {
     }
     return contestant<AabbTree>(mesh, {leaf_size, chosen(values, "certified", yes_or_no), threads}, values);
   };
-  info.build_scene = [=](const bodies::PlacedScene& scene, const OptionValues& values) {
+  info.build_scene = [=](const scenes::PlacedScene& scene, const OptionValues& values) {
     if (in_floats(values))
       throw std::invalid_argument("precision=float is of one mesh, not of a scene of bodies");
     return build_own_scene<AabbTree>([](const TriangleMesh&, const OptionValues& chosen_values) {

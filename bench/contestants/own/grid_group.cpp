@@ -107,7 +107,7 @@ ContestantInfo grid_group_entry() {
     return is_published(values) ? build<PublishedGridGroup>(mesh, published_options_of(mesh, values), values)
                                 : build<GridGroup>(mesh, options_of(mesh, values), values);
   };
-  info.build_scene = [](const bodies::PlacedScene& placed, const OptionValues& values) {
+  info.build_scene = [](const scenes::PlacedScene& placed, const OptionValues& values) {
     return is_published(values) ? build_own_scene<PublishedGridGroup>(&published_options_of)(placed, values)
                                 : build_own_scene<GridGroup>(&options_of)(placed, values);
   };

@@ -86,7 +86,7 @@ ContestantInfo sphere_cluster_entry() {
       return prepared_contestant<PublishedSphereCluster>(mesh, published_options_of(mesh, values), values);
     return prepared_contestant<SphereCluster>(mesh, options_of(mesh, values), values);
   };
-  info.build_scene = [](const bodies::PlacedScene& placed, const OptionValues& values) {
+  info.build_scene = [](const scenes::PlacedScene& placed, const OptionValues& values) {
     return is_published(values)
                ? build_own_scene<PublishedSphereCluster>(&published_options_of)(placed, values)
                : build_own_scene<SphereCluster>(&options_of)(placed, values);

@@ -41,7 +41,7 @@ const std::vector<std::string>& usual_motions_over_bodies() {
   return motions;
 }
 
-workload::Workload workload_by_time(bodies::GeneratedScene scene, const workload::Selection& selection,
+workload::Workload workload_by_time(scenes::GeneratedScene scene, const workload::Selection& selection,
                                     const std::vector<std::string>& motions, double rate_hz) {
   servo::ServoSettings settings;
   settings.rate_hz = rate_hz;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/bodies/generated_bodies.h"
+#include "bench/scenes/generated_bodies.h"
 #include "bench/workload/selection.h"
 #include "bench/workload/workload.h"
 #include "core/triangle_mesh.h"
@@ -25,7 +25,7 @@ workload::Workload workload_by_time(const std::string& mesh_name, const Triangle
                                     const std::vector<std::string>& motions, double rate_hz);
 /// Over bodies, which move in the meantime. Throws std::invalid_argument, also for a generated
 /// motion at another rate than 1000.
-workload::Workload workload_by_time(bodies::GeneratedScene scene, const workload::Selection& selection,
+workload::Workload workload_by_time(scenes::GeneratedScene scene, const workload::Selection& selection,
                                     const std::vector<std::string>& motions, double rate_hz);
 
 }  // namespace touchmark::bench::experiments::choose

@@ -9,7 +9,7 @@
 #include "bench/contestants/contestant.h"
 #include "bench/experiments/papers/choi_sung_report.h"
 #include "bench/experiments/papers/paper_trace.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "core/sphere_cluster/published/published_sphere_cluster.h"
 
 namespace touchmark::bench::experiments::papers {
@@ -18,7 +18,7 @@ namespace {
 /// A sphere whose points are moved by `place`.
 template <class Place>
 TriangleMesh shaped(const Place& place) {
-  const TriangleMesh sphere = scenes::load_scene("icosphere:3");
+  const TriangleMesh sphere = meshes::load_mesh("icosphere:3");
   std::vector<Vec3> vertices;
   for (const Vec3& v : sphere.vertices()) vertices.push_back(place(v.normalized()));
   return {std::move(vertices), {sphere.triangles().begin(), sphere.triangles().end()}};

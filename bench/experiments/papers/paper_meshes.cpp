@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "bench/experiments/papers/decimation.h"
+#include "bench/meshes/meshes.h"
 #include "bench/results/system_info.h"
-#include "bench/scenes/scenes.h"
 
 namespace touchmark::bench::experiments::papers {
 namespace {
@@ -51,7 +51,7 @@ std::uint64_t fingerprint(const TriangleMesh& mesh) {
 /// $TOUCHMARK_MODELS before it, or ../shared/models beside the working folder or beside the repository that
 /// the program was built in (its path is REPOSITORY/build/PRESET/bin/touchmark).
 std::vector<fs::path> model_folders() {
-  if (const char* folder = std::getenv("TOUCHMARK_MODELS")) return {folder, scenes::data_folder()};
+  if (const char* folder = std::getenv("TOUCHMARK_MODELS")) return {folder, meshes::data_folder()};
   std::vector<fs::path> folders{fs::path("..") / "shared" / "models"};
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -59,7 +59,7 @@ std::vector<fs::path> model_folders() {
     const fs::path repository = program.parent_path().parent_path().parent_path().parent_path();
     folders.push_back(repository.parent_path() / "shared" / "models");
   }
-  folders.push_back(scenes::data_folder());
+  folders.push_back(meshes::data_folder());
   return folders;
 }
 
@@ -71,16 +71,16 @@ std::optional<fs::path> model(const char* file) {
   return std::nullopt;
 }
 
-PaperMesh decimated(const std::string& scene, std::size_t triangles) {
-  TriangleMesh mesh = decimate(scenes::load_scene(scene), triangles);
+PaperMesh decimated(const std::string& name, std::size_t triangles) {
+  TriangleMesh mesh = decimate(meshes::load_mesh(name), triangles);
   std::string origin =
-      fmt::format("{} decimated to {} triangles (OpenMesh, quadric error)", scene, mesh.size());
-  return {fmt::format("{}-{}", results::without_directories(scene), mesh.size()), std::move(mesh),
+      fmt::format("{} decimated to {} triangles (OpenMesh, quadric error)", name, mesh.size());
+  return {fmt::format("{}-{}", results::without_directories(name), mesh.size()), std::move(mesh),
           std::move(origin)};
 }
 
 PaperMesh requested_mesh(const std::string& name) {
-  return {results::without_directories(name), scenes::load_scene(name), "as asked for with --mesh"};
+  return {results::without_directories(name), meshes::load_mesh(name), "as asked for with --mesh"};
 }
 
 }  // namespace
@@ -100,10 +100,10 @@ PaperMesh choi_sung_mesh(const std::string& requested) {
   for (const char* name : {"bunny-902.ply", "bunny-902.obj", "bunny.obj"}) {
     const std::optional<fs::path> file = model(name);
     if (!file) continue;
-    PaperMesh mesh{name, scenes::load_scene(file->string()), "the paper's own"};
+    PaperMesh mesh{name, meshes::load_mesh(file->string()), "the paper's own"};
     if (is_choi_sungs_bunny(mesh.mesh)) return mesh;
   }
-  PaperMesh mesh = decimated(scenes::default_scene(), choi_sung_triangles);
+  PaperMesh mesh = decimated(meshes::default_mesh(), choi_sung_triangles);
   mesh.origin += ", in place of the paper's own, which is not here: its counts cannot come out";
   return mesh;
 }
@@ -112,17 +112,17 @@ std::vector<PaperMesh> park_jang_meshes(const std::vector<std::string>& requeste
   std::vector<PaperMesh> meshes;
   for (const std::string& name : requested) meshes.push_back(requested_mesh(name));
   if (!requested.empty()) return meshes;
-  const std::string whole = scenes::default_scene();
+  const std::string whole = meshes::default_mesh();
   const std::pair<const char*, std::size_t> stanford[] = {
       {"bun_zipper_res4.ply", 948}, {"bun_zipper_res3.ply", 3851}, {"bun_zipper_res2.ply", 16301}};
   for (const auto& [file, triangles] : stanford) {
     if (const std::optional<fs::path> path = model(file))
-      meshes.push_back({file, scenes::load_scene(path->string()), "of the Stanford laboratory"});
+      meshes.push_back({file, meshes::load_mesh(path->string()), "of the Stanford laboratory"});
     else if (can_decimate())
       meshes.push_back(decimated(whole, triangles));
     if (quick && !meshes.empty()) return meshes;
   }
-  meshes.push_back({whole, scenes::load_scene(whole), "whole"});
+  meshes.push_back({whole, meshes::load_mesh(whole), "whole"});
   return meshes;
 }
 

@@ -14,9 +14,9 @@ struct PaperMesh {
   std::string origin;  ///< a sentence for the report: the paper's own mesh, or what stands in for it
 };
 
-/// Choi & Sung's level 0: the bunny of the CHAI3D distribution, 902 triangles. `requested` is a scene or
+/// Choi & Sung's level 0: the bunny of the CHAI3D distribution, 902 triangles. `requested` is a mesh or
 /// file; empty: bunny-902.ply or bunny.obj in the models' folder, if it is that mesh, else the bunny (or what
-/// stands in for it) decimated to about 900. Throws as load_scene and decimate do.
+/// stands in for it) decimated to about 900. Throws as load_mesh and decimate do.
 PaperMesh choi_sung_mesh(const std::string& requested);
 
 /// Park & Jang's bunny, whose resolution is not printed: those of the Stanford laboratory (948, 3,851, 16,301

@@ -21,7 +21,7 @@ double groups_at(const ParkJangRow& a, const ParkJangRow& b, double operations) 
   return std::exp(groups + part * (std::log(static_cast<double>(b.groups)) - groups));
 }
 
-std::size_t least_at(const Rows& rows, const std::function<double(const ParkJangRow&)>& value) {
+std::size_t min_at(const Rows& rows, const std::function<double(const ParkJangRow&)>& value) {
   const auto least = std::min_element(rows.begin(), rows.end(),
                                       [&](const auto* a, const auto* b) { return value(*a) < value(*b); });
   return static_cast<std::size_t>(least - rows.begin());
@@ -31,7 +31,7 @@ std::size_t least_at(const Rows& rows, const std::function<double(const ParkJang
 void fill_places(const Rows& rows, ParkJangCurve& curve) {
   std::vector<std::size_t> best;
   for (std::size_t place = 0; place < rows.front()->counted.by_place.size(); ++place)
-    best.push_back(rows[least_at(rows, [&](const ParkJangRow& row) {
+    best.push_back(rows[min_at(rows, [&](const ParkJangRow& row) {
                      return operations_of(row, row.counted.by_place[place]);
                    })]->groups);
   if (best.empty()) return;
@@ -41,21 +41,21 @@ void fill_places(const Rows& rows, ParkJangCurve& curve) {
 }
 
 ParkJangCurve curve_of(const Rows& rows, double ungrouped) {
-  const std::size_t least = least_at(rows, mean_operations);
-  const double least_operations = mean_operations(*rows[least]);
+  const std::size_t least = min_at(rows, mean_operations);
+  const double min_operations = mean_operations(*rows[least]);
   ParkJangCurve curve;
   curve.mesh = rows[0]->mesh;
   curve.triangles = rows[0]->triangles;
   curve.shape = rows[0]->form;
   curve.best = rows[least]->groups;
-  curve.factor = least_operations > 0 ? ungrouped / least_operations : 0;
-  for (std::size_t i = least; i > 0 && !curve.tenth_from && least_operations <= ungrouped / 10; --i) {
+  curve.factor = min_operations > 0 ? ungrouped / min_operations : 0;
+  for (std::size_t i = least; i > 0 && !curve.tenth_from && min_operations <= ungrouped / 10; --i) {
     if (mean_operations(*rows[i - 1]) > ungrouped / 10)
       curve.tenth_from = groups_at(*rows[i - 1], *rows[i], ungrouped / 10);
   }
   for (std::size_t i = least; i + 1 < rows.size() && !curve.rises_from; ++i) {
-    if (mean_operations(*rows[i + 1]) > 1.1 * least_operations)
-      curve.rises_from = groups_at(*rows[i], *rows[i + 1], 1.1 * least_operations);
+    if (mean_operations(*rows[i + 1]) > 1.1 * min_operations)
+      curve.rises_from = groups_at(*rows[i], *rows[i + 1], 1.1 * min_operations);
   }
   fill_places(rows, curve);
   return curve;

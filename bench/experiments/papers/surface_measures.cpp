@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include "bench/scenes/welded_mesh.h"
+#include "bench/meshes/welded_mesh.h"
 #include "core/sphere_cluster/published/triangle_spheres.h"
 #include "core/subdivision/mesh_measures.h"
 
@@ -33,8 +33,8 @@ double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b
 /// Calls visit(low, high, angle, across) for every edge of two triangles: its nodes, how far the faces turn
 /// there, and how far in front of the first the middle of the second lies.
 template <class Visitor>
-void each_crease(const TriangleMesh& mesh, const scenes::WeldedMesh& welded, const Visitor& visit) {
-  welded.each_edge([&](std::span<const scenes::TriangleSide> sides) {
+void each_crease(const TriangleMesh& mesh, const meshes::WeldedMesh& welded, const Visitor& visit) {
+  welded.each_edge([&](std::span<const meshes::TriangleSide> sides) {
     if (sides.size() != 2) return;
     const Vec3 normal = face_normal(mesh, sides[0].triangle);
     visit(sides[0].low, sides[0].high, angle_between(normal, face_normal(mesh, sides[1].triangle)),
@@ -44,7 +44,7 @@ void each_crease(const TriangleMesh& mesh, const scenes::WeldedMesh& welded, con
 
 /// The nodes, the one with the sharpest edge first.
 std::vector<Vec3> sharpest_first(const TriangleMesh& mesh) {
-  const scenes::WeldedMesh welded(mesh);
+  const meshes::WeldedMesh welded(mesh);
   std::vector<double> sharpest(welded.nodes.size());
   each_crease(mesh, welded, [&](std::uint32_t low, std::uint32_t high, double angle, double) {
     for (const std::uint32_t node : {low, high}) sharpest[node] = std::max(sharpest[node], angle);
@@ -96,7 +96,7 @@ void measure_spheres(const TriangleMesh& mesh, SurfaceMeasures& measures) {
 }  // namespace
 
 void each_crease(const TriangleMesh& mesh, const std::function<void(double, double)>& visit) {
-  const scenes::WeldedMesh welded(mesh);
+  const meshes::WeldedMesh welded(mesh);
   each_crease(mesh, welded, [&](std::uint32_t low, std::uint32_t high, double angle, double) {
     visit((welded.nodes[low] - welded.nodes[high]).norm(), angle);
   });
@@ -112,7 +112,7 @@ double crease_deg(const TriangleMesh& mesh) {
 }
 
 double concave_bending(const TriangleMesh& mesh) {
-  const scenes::WeldedMesh welded(mesh);
+  const meshes::WeldedMesh welded(mesh);
   const double outwards = signed_volume(mesh) < 0 ? -1 : 1;
   double sum = 0;
   each_crease(mesh, welded, [&](std::uint32_t low, std::uint32_t high, double angle, double across) {
@@ -147,7 +147,7 @@ SurfaceMeasures SurfaceRuler::measure(std::string method, int level, const Trian
   measures.mean_area = mean_triangle_area(mesh);
   measures.relative_volume = absolute_volume(mesh, volume_center(original_)) / volume_;
   measures.crease_deg = crease_deg(mesh);
-  measures.vertices = scenes::WeldedMesh(mesh).nodes.size();
+  measures.vertices = meshes::WeldedMesh(mesh).nodes.size();
   measures.mean_edge_ratio = mean_edge_ratio(mesh);
   measures.concave_bending = concave_bending(mesh);
   measures.mean_offset = mean_offset(mesh);

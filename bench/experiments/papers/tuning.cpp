@@ -40,7 +40,7 @@ std::optional<FrontierPoint> chosen(const std::vector<FrontierPoint>& points, do
 
 /// What the points of a level have in common.
 struct LevelSummary {
-  double least_error = std::numeric_limits<double>::infinity();
+  double min_error = std::numeric_limits<double>::infinity();
   std::size_t triangles = 0;
   bool holds = false;  ///< does any form hold the rate?
 };
@@ -52,7 +52,7 @@ LevelSummary summary_of(const FrontierResult& result, int level, double rate) {
     summary.triangles = std::max(summary.triangles, point.triangles);
     if (!holds_rate(point, rate)) continue;
     summary.holds = true;
-    summary.least_error = std::min(summary.least_error, point.error.mean);
+    summary.min_error = std::min(summary.min_error, point.error.mean);
   }
   return summary;
 }
@@ -64,7 +64,7 @@ std::string reason_to_stop(const FrontierResult& result, int level, double rate)
   if (!result.left_out.empty()) return "it was left out: " + result.left_out.back();
   if (!last.holds) return fmt::format("no form of level {} holds the rate", level);
   if (last.triangles == before.triangles) return fmt::format("level {} has no edge left to split", level);
-  if (!(last.least_error < before.least_error))
+  if (!(last.min_error < before.min_error))
     return fmt::format("level {} is no nearer to the reference", level);
   if (result.reference_levels > 0 && level + 1 >= result.reference_levels)
     return fmt::format("level {} would be the reference itself: --reference names a finer one", level + 1);

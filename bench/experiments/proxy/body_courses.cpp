@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "bench/experiments/proxy/course_makers.h"
-#include "bench/scenes/generated_scenes.h"
-#include "bench/scenes/portable_sincos.h"
+#include "bench/meshes/generated_meshes.h"
+#include "bench/meshes/portable_sincos.h"
 
 namespace touchmark::bench::experiments::proxy {
 namespace {
@@ -34,7 +34,7 @@ struct Swing {
 
   Vec3 at(std::size_t change) const {
     const double turns = static_cast<double>(change) / period + phase;
-    return on_grid(about + scenes::portable_sincos(turns - std::floor(turns)).sin * by);
+    return on_grid(about + meshes::portable_sincos(turns - std::floor(turns)).sin * by);
   }
 };
 
@@ -51,12 +51,13 @@ struct Swinging {
 /// Two slabs that close on what is between them, nearer than the ball is wide, and a block that comes in from
 /// the side.
 Swinging press(double radius, support::Random& random) {
-  const double half = scene_size / 2, thick = scene_size / 10;
-  const double least = random.between(0.2, 1.2) * radius + 0.002 * scene_size;
-  const double swing = random.between(1, 4) * radius + 0.02 * scene_size, period = 20 + random.between(0, 60);
-  scenes::Surface slab, block;
-  scenes::add_box(slab, {-half, -half, -thick}, {half, half, 0});
-  scenes::add_box(block, {0, -half / 4, -half / 4}, {half, half / 4, half / 4});
+  const double half = course_size / 2, thick = course_size / 10;
+  const double least = random.between(0.2, 1.2) * radius + 0.002 * course_size;
+  const double swing = random.between(1, 4) * radius + 0.02 * course_size,
+               period = 20 + random.between(0, 60);
+  meshes::Surface slab, block;
+  meshes::add_box(slab, {-half, -half, -thick}, {half, half, 0});
+  meshes::add_box(block, {0, -half / 4, -half / 4}, {half, half / 4, half / 4});
   const TriangleMesh below = std::move(slab).mesh();
   Swinging made;
   const Vec3 up = Vec3::UnitZ();
@@ -71,11 +72,11 @@ Swinging press(double radius, support::Random& random) {
 Swinging crowd(support::Random& random) {
   Swinging made;
   for (std::size_t i = 0; i < 5; ++i) {
-    const TriangleMesh mesh = i % 2 == 0 ? scenes::noisy_sphere(100) : scenes::cube();
+    const TriangleMesh mesh = i % 2 == 0 ? meshes::noisy_sphere(100) : meshes::cube();
     const TriangleMesh solid =
-        placed(mesh, random.between(0.2, 0.5) * scene_size / mesh.diagonal(), any_frame(random));
-    made.add(solid, {0.3 * scene_size * random.unit() * random.direction(),
-                     random.between(0.1, 0.5) * scene_size * random.direction(), 40 + random.between(0, 160),
+        placed(mesh, random.between(0.2, 0.5) * course_size / mesh.diagonal(), any_frame(random));
+    made.add(solid, {0.3 * course_size * random.unit() * random.direction(),
+                     random.between(0.1, 0.5) * course_size * random.direction(), 40 + random.between(0, 160),
                      random.unit()});
   }
   return made;
@@ -89,7 +90,7 @@ std::vector<Vec3> places_of(const Swinging& made, std::size_t change) {
 
 TriangleMesh mesh_of(const Swinging& made, std::size_t change) {
   const std::vector<Vec3> places = places_of(made, change);
-  scenes::Surface surface;
+  meshes::Surface surface;
   for (std::size_t i = 0; i < made.bodies.size(); ++i) surface.part(made.bodies[i], 1, places[i]);
   return std::move(surface).mesh();
 }
@@ -102,14 +103,14 @@ std::vector<Course> moving_bodies(std::uint64_t seed, std::size_t ticks) {
   std::vector<Course> made;
   for (std::size_t i = 0; i < count; ++i) {
     support::Random random(seed * course_seed + 480 + i);
-    const double radius = radius_of(i, scene_size);
+    const double radius = radius_of(i, course_size);
     const auto swinging = std::make_shared<const Swinging>(i < 2 ? press(radius, random) : crowd(random));
-    const Vec3 start(0, 0, 1.5 * scene_size);
+    const Vec3 start(0, 0, 1.5 * course_size);
     Motion motion(start, share_of(ticks, count));
     while (!motion.done()) {
-      motion.line(0.2 * scene_size * random.unit() * random.direction(), 10 + random.below(40));
+      motion.line(0.2 * course_size * random.unit() * random.direction(), 10 + random.below(40));
       motion.rest(random.below(30));
-      if (random.below(4) == 0) motion.line(scene_size * random.direction(), 20);
+      if (random.below(4) == 0) motion.line(course_size * random.direction(), 20);
     }
     Course course{fmt::format("{} {}", i < 2 ? "press" : "crowd", i),
                   mesh_of(*swinging, 0),

@@ -9,13 +9,13 @@
 
 #include "bench/experiments/proxy/course.h"
 #include "bench/experiments/proxy/motion.h"
-#include "bench/scenes/surface_builder.h"
+#include "bench/meshes/surface_builder.h"
 #include "bench/support/random.h"
 
 namespace touchmark::bench::experiments::proxy {
 
-/// The usual size of a scene: as of what fits under a haptic device, in metres.
-inline constexpr double scene_size = 0.1;
+/// The usual size of a course's meshes: as of what fits under a haptic device, in metres.
+inline constexpr double course_size = 0.1;
 
 /// Seeds of one round's courses are this far from those of the next round.
 inline constexpr std::uint64_t course_seed = 1000;

@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 
 #include "bench/experiments/proxy/course_makers.h"
-#include "bench/scenes/generated_scenes.h"
+#include "bench/meshes/generated_meshes.h"
 
 namespace touchmark::bench::experiments::proxy {
 namespace {
 
 /// The diagonal of the mesh becomes the usual size, turned any way.
 TriangleMesh sized(const TriangleMesh& mesh, support::Random& random) {
-  return placed(mesh, scene_size / mesh.diagonal(), any_frame(random));
+  return placed(mesh, course_size / mesh.diagonal(), any_frame(random));
 }
 
 template <std::size_t count, class Make>
@@ -22,7 +22,7 @@ std::vector<Course> explored(std::string_view what, std::uint64_t seed, std::uin
   std::vector<Course> made;
   for (std::size_t i = 0; i < count; ++i) {
     support::Random random(seed * course_seed + salt + i);
-    made.push_back(exploring(fmt::format("{} {}", what, i), make(i, random), radius_of(i, scene_size),
+    made.push_back(exploring(fmt::format("{} {}", what, i), make(i, random), radius_of(i, course_size),
                              seed * course_seed + salt + 500 + i, share_of(ticks, count)));
   }
   return made;
@@ -30,8 +30,8 @@ std::vector<Course> explored(std::string_view what, std::uint64_t seed, std::uin
 
 /// Keeps each triangle with this probability.
 TriangleMesh thinned(const TriangleMesh& mesh, support::Random& random, double kept) {
-  std::vector<scenes::Corners> triangles;
-  for (const scenes::Corners& corners : mesh.triangles())
+  std::vector<meshes::Corners> triangles;
+  for (const meshes::Corners& corners : mesh.triangles())
     if (triangles.empty() || random.unit() < kept) triangles.push_back(corners);
   return {{mesh.vertices().begin(), mesh.vertices().end()}, std::move(triangles)};
 }
@@ -41,10 +41,10 @@ TriangleMesh thinned(const TriangleMesh& mesh, support::Random& random, double k
 std::vector<Course> saddles(std::uint64_t seed, std::size_t ticks) {
   return explored<4>("saddle", seed, 140, ticks, [](std::size_t i, support::Random& random) {
     const double bend = random.between(1, 8);
-    scenes::Surface surface;
+    meshes::Surface surface;
     const auto squares = static_cast<std::uint32_t>(4 << i);
-    scenes::add_patch(surface, squares, squares, [&](double u, double v) {
-      const double x = (u - 0.5) * scene_size, y = (v - 0.5) * scene_size;
+    meshes::add_patch(surface, squares, squares, [&](double u, double v) {
+      const double x = (u - 0.5) * course_size, y = (v - 0.5) * course_size;
       return Vec3(x, y, bend * (x * x - y * y));
     });
     return placed(std::move(surface).mesh(), 1, any_frame(random));
@@ -53,14 +53,14 @@ std::vector<Course> saddles(std::uint64_t seed, std::size_t ticks) {
 
 std::vector<Course> convex_edges(std::uint64_t seed, std::size_t ticks) {
   return explored<4>("solid", seed, 160, ticks, [](std::size_t i, support::Random& random) {
-    return i < 2 ? sized(scenes::cube(), random)
-                 : sized(scenes::icosphere(static_cast<unsigned>(i - 2)), random);
+    return i < 2 ? sized(meshes::cube(), random)
+                 : sized(meshes::icosphere(static_cast<unsigned>(i - 2)), random);
   });
 }
 
 std::vector<Course> needle_fans(std::uint64_t seed, std::size_t ticks) {
   return explored<4>("needles", seed, 180, ticks, [](std::size_t i, support::Random& random) {
-    return sized(i < 2 ? scenes::sliver_fan() : i == 2 ? scenes::needles() : scenes::caps(), random);
+    return sized(i < 2 ? meshes::sliver_fan() : i == 2 ? meshes::needles() : meshes::caps(), random);
   });
 }
 
@@ -68,12 +68,12 @@ std::vector<Course> needle_fans(std::uint64_t seed, std::size_t ticks) {
 /// only.
 std::vector<Course> t_junctions(std::uint64_t seed, std::size_t ticks) {
   return explored<4>("junctions", seed, 200, ticks, [](std::size_t i, support::Random& random) {
-    scenes::Surface surface;
+    meshes::Surface surface;
     const auto fine = static_cast<std::uint32_t>(3 + 2 * i);
-    const double half = scene_size / 2;
-    scenes::add_patch(surface, 2, 2,
+    const double half = course_size / 2;
+    meshes::add_patch(surface, 2, 2,
                       [&](double u, double v) { return Vec3(half * (u - 1), half * (v - 0.5), 0); });
-    scenes::add_patch(surface, fine, fine,
+    meshes::add_patch(surface, fine, fine,
                       [&](double u, double v) { return Vec3(half * u, half * (v - 0.5), 0); });
     return placed(std::move(surface).mesh(), 1, any_frame(random));
   });
@@ -81,16 +81,16 @@ std::vector<Course> t_junctions(std::uint64_t seed, std::size_t ticks) {
 
 std::vector<Course> holes(std::uint64_t seed, std::size_t ticks) {
   return explored<4>("open surface", seed, 220, ticks, [](std::size_t i, support::Random& random) {
-    return sized(thinned(i < 2 ? scenes::noisy_sphere(800) : scenes::icosphere(3), random, 0.9), random);
+    return sized(thinned(i < 2 ? meshes::noisy_sphere(800) : meshes::icosphere(3), random, 0.9), random);
   });
 }
 
 std::vector<Course> self_intersections(std::uint64_t seed, std::size_t ticks) {
   return explored<4>("crossing parts", seed, 240, ticks, [](std::size_t i, support::Random& random) {
-    if (i == 3) return sized(scenes::soup(60), random);
-    scenes::Surface surface;
+    if (i == 3) return sized(meshes::soup(60), random);
+    meshes::Surface surface;
     for (int part = 0; part < 3; ++part)
-      surface.part(placed(i == 0 ? scenes::cube() : scenes::icosphere(1), 0.5, any_frame(random)), 1,
+      surface.part(placed(i == 0 ? meshes::cube() : meshes::icosphere(1), 0.5, any_frame(random)), 1,
                    0.2 * random.direction());
     return sized(std::move(surface).mesh(), random);
   });
@@ -98,7 +98,7 @@ std::vector<Course> self_intersections(std::uint64_t seed, std::size_t ticks) {
 
 std::vector<Course> doubled_faces(std::uint64_t seed, std::size_t ticks) {
   return explored<4>("doubled", seed, 260, ticks, [](std::size_t i, support::Random& random) {
-    return sized(i < 2 ? scenes::doubled() : scenes::degenerate(), random);
+    return sized(i < 2 ? meshes::doubled() : meshes::degenerate(), random);
   });
 }
 
@@ -108,7 +108,7 @@ std::vector<Course> scaled_meshes(std::uint64_t seed, std::size_t ticks) {
   std::vector<Course> made;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     support::Random random(seed * course_seed + 280 + i);
-    const TriangleMesh ball = scenes::noisy_sphere(2000);
+    const TriangleMesh ball = meshes::noisy_sphere(2000);
     made.push_back(exploring(fmt::format("{:g} m", sizes[i]),
                              placed(ball, sizes[i] / ball.diagonal(), any_frame(random)),
                              i < sizes.size() / 2 ? 0.02 * sizes[i] : 0, seed * course_seed + 300 + i,

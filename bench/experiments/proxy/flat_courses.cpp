@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/experiments/proxy/course_makers.h"
-#include "bench/scenes/portable_sincos.h"
+#include "bench/meshes/portable_sincos.h"
 #include "core/float_limits.h"
 
 namespace touchmark::bench::experiments::proxy {
@@ -33,7 +33,7 @@ double below(double x, std::uint64_t n) {
   return x;
 }
 
-double least_height(const TriangleMesh& mesh, const Vec3& at) {
+double min_height(const TriangleMesh& mesh, const Vec3& at) {
   double least = infinity;
   for (std::size_t i = 0; i < mesh.size(); ++i) {
     const Vec3 normal = (mesh.corner(i, 1) - mesh.corner(i, 0)).cross(mesh.corner(i, 2) - mesh.corner(i, 0));
@@ -59,8 +59,8 @@ std::vector<Course> thin_plates(std::uint64_t seed, std::size_t ticks) {
     support::Random random(seed * course_seed + i);
     const double top = 0.0625 + 0.001 * random.unit();
     const double bottom = thicknesses[i] > 0 ? top - thicknesses[i] : below(top, i - 4);
-    scenes::Surface surface;
-    scenes::add_box(surface, Vec3(-2, -2, bottom), Vec3(2, 2, top));
+    meshes::Surface surface;
+    meshes::add_box(surface, Vec3(-2, -2, bottom), Vec3(2, 2, top));
     TriangleMesh mesh = std::move(surface).mesh();
     std::vector<std::uint32_t> bounds;
     for (std::uint32_t t = 0; t < mesh.size() && bounds.empty(); ++t)
@@ -68,9 +68,9 @@ std::vector<Course> thin_plates(std::uint64_t seed, std::size_t ticks) {
         bounds.push_back(t);
     const Vec3 start(0, 0, top + 0.05);
     std::vector<Vec3> goals =
-        pressing(random, start, Vec3(0, 0, top - 0.02), scene_size, share_of(ticks, thicknesses.size()));
+        pressing(random, start, Vec3(0, 0, top - 0.02), course_size, share_of(ticks, thicknesses.size()));
     made.push_back({fmt::format("plate {:.3g} thick", top - bottom), std::move(mesh),
-                    radius_of(i, scene_size), 0, start, std::move(goals), std::move(bounds)});
+                    radius_of(i, course_size), 0, start, std::move(goals), std::move(bounds)});
   }
   return made;
 }
@@ -82,15 +82,15 @@ std::vector<Course> wedges_inside(std::uint64_t seed, std::size_t ticks) {
   for (std::size_t i = 0; i < degrees.size(); ++i) {
     support::Random random(seed * course_seed + 20 + i);
     const Frame frame = random.below(2) == 0 ? upright() : any_frame(random);
-    const scenes::SinCos half = scenes::portable_sincos(degrees[i] / 720);
+    const meshes::SinCos half = meshes::portable_sincos(degrees[i] / 720);
     const Vec3 along(0, 4, 0), up(4 * half.cos, 0, 4 * half.sin), down(4 * half.cos, 0, -4 * half.sin);
     // Each face is one triangle, large enough that its sides are never met.
     std::vector<Vec3> vertices{frame(-along), frame(along), frame(up), frame(down)};
     TriangleMesh mesh(std::move(vertices), {{0, 1, 2}, {1, 0, 3}});
     const Vec3 start = frame(Vec3(0.05, 0, 0));
-    const double radius = i % 2 == seed % 2 ? std::min(0.005, 0.3 * least_height(mesh, start)) : 0;
+    const double radius = i % 2 == seed % 2 ? std::min(0.005, 0.3 * min_height(mesh, start)) : 0;
     std::vector<Vec3> goals =
-        pressing(random, start, Vec3::Zero(), scene_size, share_of(ticks, degrees.size()));
+        pressing(random, start, Vec3::Zero(), course_size, share_of(ticks, degrees.size()));
     std::vector<std::uint32_t> bounds = all_of(mesh);
     made.push_back({fmt::format("groove of {:g} degrees", degrees[i]), std::move(mesh), radius, 0, start,
                     std::move(goals), std::move(bounds)});
@@ -104,9 +104,9 @@ std::vector<Course> wedges_outside(std::uint64_t seed, std::size_t ticks) {
   std::vector<Course> made;
   for (std::size_t i = 0; i < degrees.size(); ++i) {
     support::Random random(seed * course_seed + 40 + i);
-    const scenes::SinCos half = scenes::portable_sincos(degrees[i] / 720);
+    const meshes::SinCos half = meshes::portable_sincos(degrees[i] / 720);
     const double deep = 0.05;
-    scenes::Surface surface;  // a prism: the edge at x = 0, its back at x = -deep
+    meshes::Surface surface;  // a prism: the edge at x = 0, its back at x = -deep
     for (const double y : {-0.05, 0.05}) {
       surface.add(Vec3(0, y, 0));
       surface.add(Vec3(-deep, y, deep * half.sin / half.cos));
@@ -117,7 +117,7 @@ std::vector<Course> wedges_outside(std::uint64_t seed, std::size_t ticks) {
     surface.triangles.push_back({3, 5, 4});
     TriangleMesh mesh = placed(std::move(surface).mesh(), 1, any_frame(random));
     made.push_back(exploring(fmt::format("blade of {:g} degrees", degrees[i]), std::move(mesh),
-                             radius_of(i + seed, scene_size), seed * course_seed + 60 + i,
+                             radius_of(i + seed, course_size), seed * course_seed + 60 + i,
                              share_of(ticks, degrees.size())));
   }
   return made;
@@ -140,7 +140,7 @@ std::vector<Course> corners(std::uint64_t seed, std::size_t ticks) {
     TriangleMesh mesh({Vec3::Zero(), size * edges[0], size * edges[1], size * edges[2]},
                       {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}});
     const Vec3 start = 0.05 * (edges[0] + edges[1] + edges[2]).normalized();
-    const double radius = i % 2 == 0 ? std::min(0.005, 0.3 * least_height(mesh, start)) : 0;
+    const double radius = i % 2 == 0 ? std::min(0.005, 0.3 * min_height(mesh, start)) : 0;
     std::vector<Vec3> goals = pressing(random, start, Vec3::Zero(), 0.05, share_of(ticks, count));
     std::vector<std::uint32_t> bounds = all_of(mesh);
     made.push_back({fmt::format("corner {}", i), std::move(mesh), radius, 0, start, std::move(goals),
@@ -155,15 +155,15 @@ std::vector<Course> rooms(std::uint64_t seed, std::size_t ticks) {
   std::vector<Course> made;
   for (std::size_t i = 0; i < count; ++i) {
     support::Random random(seed * course_seed + 100 + i);
-    scenes::Surface surface;
-    scenes::add_box(surface, Vec3(-0.05, -0.04, -0.03), Vec3(0.05, 0.04, 0.03));
-    for (scenes::Corners& corners : surface.triangles)
+    meshes::Surface surface;
+    meshes::add_box(surface, Vec3(-0.05, -0.04, -0.03), Vec3(0.05, 0.04, 0.03));
+    for (meshes::Corners& corners : surface.triangles)
       std::swap(corners[1], corners[2]);  // faces look inwards
     TriangleMesh mesh = placed(std::move(surface).mesh(), 1, i < 2 ? upright() : any_frame(random));
     std::vector<Vec3> goals =
-        pressing(random, Vec3::Zero(), Vec3::Zero(), scene_size, share_of(ticks, count));
+        pressing(random, Vec3::Zero(), Vec3::Zero(), course_size, share_of(ticks, count));
     std::vector<std::uint32_t> bounds = all_of(mesh);
-    made.push_back({fmt::format("room {}", i), std::move(mesh), radius_of(i, scene_size), 0, Vec3::Zero(),
+    made.push_back({fmt::format("room {}", i), std::move(mesh), radius_of(i, course_size), 0, Vec3::Zero(),
                     std::move(goals), std::move(bounds)});
   }
   return made;
@@ -179,12 +179,12 @@ std::vector<Course> cracks(std::uint64_t seed, std::size_t ticks) {
     const double left = 0.01 + 0.001 * random.unit();
     const double right = widths[i] > 0 ? left + widths[i] : std::nextafter(left, infinity);
     constexpr std::uint32_t squares = 8;
-    scenes::Surface surface;
-    scenes::add_patch(surface, squares, squares, [&](double u, double v) {
-      return Vec3(left + (u - 1) * scene_size, (v - 0.5) * scene_size, 0);
+    meshes::Surface surface;
+    meshes::add_patch(surface, squares, squares, [&](double u, double v) {
+      return Vec3(left + (u - 1) * course_size, (v - 0.5) * course_size, 0);
     });
-    scenes::add_patch(surface, squares, squares, [&](double u, double v) {
-      return Vec3(right + u * scene_size, (v - 0.5) * scene_size, 0);
+    meshes::add_patch(surface, squares, squares, [&](double u, double v) {
+      return Vec3(right + u * course_size, (v - 0.5) * course_size, 0);
     });
     const Vec3 start(left, 0, 0.03);
     Motion motion(start, share_of(ticks, widths.size()));
@@ -199,7 +199,7 @@ std::vector<Course> cracks(std::uint64_t seed, std::size_t ticks) {
       motion.line(Vec3(left, y, 0.01), 20);
     }
     made.push_back({fmt::format("crack {:.3g} wide", right - left), std::move(surface).mesh(),
-                    radius_of(i, scene_size), 0, start, std::move(motion).take()});
+                    radius_of(i, course_size), 0, start, std::move(motion).take()});
   }
   return made;
 }

@@ -1,6 +1,6 @@
 #include "bench/experiments/proxy/motion.h"
 
-#include "bench/scenes/portable_sincos.h"
+#include "bench/meshes/portable_sincos.h"
 
 namespace touchmark::bench::experiments::proxy {
 
@@ -22,8 +22,8 @@ void Motion::rest(std::size_t ticks) {
 
 void Motion::circle(const Vec3& center, const Vec3& u, const Vec3& v, std::size_t ticks) {
   for (std::size_t i = 1; i <= ticks; ++i) {
-    const scenes::SinCos turn =
-        scenes::portable_sincos(static_cast<double>(i % ticks) / static_cast<double>(ticks));
+    const meshes::SinCos turn =
+        meshes::portable_sincos(static_cast<double>(i % ticks) / static_cast<double>(ticks));
     jump(center + turn.cos * u + turn.sin * v);
   }
 }

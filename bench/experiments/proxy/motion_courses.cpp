@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "bench/experiments/proxy/course_makers.h"
-#include "bench/scenes/deformation.h"
-#include "bench/scenes/generated_scenes.h"
+#include "bench/meshes/deformation.h"
+#include "bench/meshes/generated_meshes.h"
 
 namespace touchmark::bench::experiments::proxy {
 namespace {
@@ -13,10 +13,10 @@ namespace {
 constexpr std::size_t courses = 4;
 
 TriangleMesh solid(std::size_t i, support::Random& random) {
-  const TriangleMesh mesh = i % 4 < 2    ? scenes::noisy_sphere(1000)
-                            : i % 4 == 2 ? scenes::torus(24, 12)
-                                         : scenes::cube();
-  return placed(mesh, scene_size / mesh.diagonal(), any_frame(random));
+  const TriangleMesh mesh = i % 4 < 2    ? meshes::noisy_sphere(1000)
+                            : i % 4 == 2 ? meshes::torus(24, 12)
+                                         : meshes::cube();
+  return placed(mesh, course_size / mesh.diagonal(), any_frame(random));
 }
 
 /// Writes a course's motion: write(motion, random, size, start).
@@ -27,8 +27,8 @@ std::vector<Course> moved_over_solids(std::string_view what, std::uint64_t seed,
   for (std::size_t i = 0; i < courses; ++i) {
     support::Random random(seed * course_seed + salt + i);
     TriangleMesh mesh = solid(i, random);
-    const double radius = radius_of(i / 2 + i, scene_size);
-    const Vec3 start = (0.6 * scene_size + 2 * radius) * random.direction();
+    const double radius = radius_of(i / 2 + i, course_size);
+    const Vec3 start = (0.6 * course_size + 2 * radius) * random.direction();
     Motion motion(start, share_of(ticks, courses));
     while (!motion.done()) write(motion, random);
     made.push_back(
@@ -37,22 +37,22 @@ std::vector<Course> moved_over_solids(std::string_view what, std::uint64_t seed,
   return made;
 }
 
-Vec3 out_of(support::Random& random) { return 0.6 * scene_size * random.direction(); }
+Vec3 out_of(support::Random& random) { return 0.6 * course_size * random.direction(); }
 
 }  // namespace
 
 /// 100 diagonals a second: a tenth of one each tick.
 std::vector<Course> stabs(std::uint64_t seed, std::size_t ticks) {
   return moved_over_solids("stabs", seed, 320, ticks, [](Motion& motion, support::Random& random) {
-    const Vec3 to = -motion.at() + 0.3 * scene_size * random.direction();
-    motion.line(to, 1 + static_cast<std::size_t>((to - motion.at()).norm() / (0.1 * scene_size)));
+    const Vec3 to = -motion.at() + 0.3 * course_size * random.direction();
+    motion.line(to, 1 + static_cast<std::size_t>((to - motion.at()).norm() / (0.1 * course_size)));
     if (random.below(2) == 0) motion.jump(out_of(random));
   });
 }
 
 std::vector<Course> rest_inside(std::uint64_t seed, std::size_t ticks) {
   return moved_over_solids("rest", seed, 340, ticks, [](Motion& motion, support::Random& random) {
-    motion.line(0.3 * scene_size * random.unit() * random.direction(), 30);
+    motion.line(0.3 * course_size * random.unit() * random.direction(), 30);
     motion.rest(60);
     if (random.below(2) == 0) motion.line(out_of(random), 30);
   });
@@ -64,10 +64,10 @@ std::vector<Course> circles(std::uint64_t seed, std::size_t ticks) {
   for (std::size_t i = 0; i < courses; ++i) {
     support::Random random(seed * course_seed + 360 + i);
     TriangleMesh mesh = solid(i, random);
-    const double radius = radius_of(i, scene_size);
+    const double radius = radius_of(i, course_size);
     const Frame frame = any_frame(random);
-    const double size = random.between(0.1, 0.6) * scene_size;
-    const Vec3 start = frame((0.7 * scene_size + 2 * radius) * Vec3::UnitX());
+    const double size = random.between(0.1, 0.6) * course_size;
+    const Vec3 start = frame((0.7 * course_size + 2 * radius) * Vec3::UnitX());
     const Vec3 center = start - frame(size * Vec3::UnitX());  // so the circle begins where the proxy starts
     Motion motion(start, share_of(ticks, courses) / turn * turn + turn);
     while (!motion.done())
@@ -80,8 +80,8 @@ std::vector<Course> circles(std::uint64_t seed, std::size_t ticks) {
 
 std::vector<Course> tremors(std::uint64_t seed, std::size_t ticks) {
   return moved_over_solids("tremor", seed, 380, ticks, [](Motion& motion, support::Random& random) {
-    motion.line(0.4 * scene_size * random.unit() * random.direction(), 40);
-    motion.tremor(random, 0.02 * scene_size * random.unit(), 150);
+    motion.line(0.4 * course_size * random.unit() * random.direction(), 40);
+    motion.tremor(random, 0.02 * course_size * random.unit(), 150);
     if (random.below(2) == 0) motion.line(out_of(random), 30);
   });
 }
@@ -90,7 +90,7 @@ std::vector<Course> friction(std::uint64_t seed, std::size_t ticks) {
   std::vector<Course> made;
   for (std::size_t i = 0; i < courses; ++i) {
     support::Random random(seed * course_seed + 400 + i);
-    made.push_back(exploring(fmt::format("friction {}", i), solid(i, random), radius_of(i, scene_size),
+    made.push_back(exploring(fmt::format("friction {}", i), solid(i, random), radius_of(i, course_size),
                              seed * course_seed + 420 + i, share_of(ticks, courses)));
     made.back().friction = random.between(0.1, 1);
   }
@@ -104,8 +104,8 @@ std::vector<Course> deforming(std::uint64_t seed, std::size_t ticks) {
   for (std::size_t i = 0; i < courses; ++i) {
     support::Random random(seed * course_seed + 440 + i);
     const TriangleMesh mesh = solid(i, random);
-    const TriangleMesh other = scenes::deformed(mesh, {i % 2 == 0 ? 1.0 : 0.3, seed + i});
-    made.push_back(exploring(fmt::format("deforming {}", i), mesh, radius_of(i, scene_size),
+    const TriangleMesh other = meshes::deformed(mesh, {i % 2 == 0 ? 1.0 : 0.3, seed + i});
+    made.push_back(exploring(fmt::format("deforming {}", i), mesh, radius_of(i, course_size),
                              seed * course_seed + 460 + i, share_of(ticks, courses)));
     made.back().update_every = every;
     made.back().moved = [mesh, other](std::size_t change) {

@@ -7,7 +7,7 @@
 
 #include "bench/experiments/proxy/motion.h"
 #include "bench/experiments/proxy/proxy_run.h"
-#include "bench/scenes/surface_builder.h"
+#include "bench/meshes/surface_builder.h"
 
 namespace touchmark::bench::experiments::proxy {
 namespace {
@@ -26,7 +26,7 @@ constexpr double radius = 0.002;
 }  // namespace
 
 Course stab_course() {
-  scenes::Surface surface;
+  meshes::Surface surface;
   constexpr double half = 0.05;
   for (const Place& place : outline) {
     surface.add(Vec3(place.x, -half, place.z));

@@ -62,10 +62,10 @@ Vec3 free_start(const WayOracle& oracle, std::span<const Vec3> goals, double rad
   const auto is_free = [&](const Vec3& at) { return !oracle.is_within(at, at, radius); };
   const auto first = std::find_if(goals.begin(), goals.end(), is_free);
   if (first != goals.end()) return *first;
-  constexpr double least_share = 0x1p-20;
+  constexpr double min_share = 0x1p-20;
   const WayOracle::WayOut out = oracle.way_out(goals.front());
   // Nothing of the mesh is near beyond its box, so that this ends.
-  for (double beyond = least_share * (oracle.diagonal() + radius);; beyond *= 2) {
+  for (double beyond = min_share * (oracle.diagonal() + radius);; beyond *= 2) {
     const Vec3 start = out.from + (radius + beyond) * out.direction;
     if (is_free(start)) return start;
   }

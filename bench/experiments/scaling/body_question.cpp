@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "bench/scenes/portable_sincos.h"
+#include "bench/meshes/portable_sincos.h"
 #include "bench/support/available_memory.h"
 
 namespace touchmark::bench::experiments::scaling {
@@ -14,34 +14,34 @@ constexpr double frame_s = BodyQuestion::ticks_a_frame / 1000.0;  // a servo tic
 /// A few thousandths of a body's size about the place, along a curve that never stands still.
 Vec3 wobble(std::size_t tick) {
   const double t = static_cast<double>(tick);
-  return 0.003 * Vec3(scenes::portable_sincos(t / 97).cos, scenes::portable_sincos(t / 61).sin,
-                      scenes::portable_sincos(t / 43).sin);
+  return 0.003 * Vec3(meshes::portable_sincos(t / 97).cos, meshes::portable_sincos(t / 61).sin,
+                      meshes::portable_sincos(t / 43).sin);
 }
 
 /// Outside all bodies of a field and more than one body's size from each; or just outside the first body,
 /// that it moves with.
-Vec3 place_of(Place place, const bodies::GeneratedScene& scene, double time_s) {
-  const bodies::Body& first = scene.scene.bodies.front();
+Vec3 place_of(Place place, const scenes::GeneratedScene& scene, double time_s) {
+  const scenes::Body& first = scene.scene.bodies.front();
   if (place == Place::free) return first.start.position + Vec3::Constant(1.5);
   const bool moves = !scene.motion.moving.empty() && scene.motion.moving.front() == 0;
-  const Pose pose = bodies::pose_of(moves ? scene.motion.at(0, time_s) : first.start);
+  const Pose pose = scenes::pose_of(moves ? scene.motion.at(0, time_s) : first.start);
   return image(pose, 1.02 * scene.scene.shapes[first.shape]->vertices().front());
 }
 
 }  // namespace
 
-BodyQuestion::BodyQuestion(const bodies::GeneratedScene& scene, Place where) : place(where) {
+BodyQuestion::BodyQuestion(const scenes::GeneratedScene& scene, Place where) : place(where) {
   const std::vector<std::uint32_t>& moving = scene.motion.moving;
   if (!moving.empty()) {
     support::require_memory("the poses of bodies",
-                            2 * sizeof(bodies::BodyMove) * static_cast<double>(frames * moving.size()));
+                            2 * sizeof(scenes::BodyMove) * static_cast<double>(frames * moving.size()));
     schedule.first.push_back(0);
   }
   for (std::size_t frame = 0; frame < frames; ++frame) {
     // There and back again, so that the way from the last to the first is no jump.
     const double time_s = frame_s * static_cast<double>(std::min(frame, frames - frame));
     for (const std::uint32_t body : moving)
-      schedule.moves.push_back(bodies::BodyMove::of(body, bodies::pose_of(scene.motion.at(body, time_s))));
+      schedule.moves.push_back(scenes::BodyMove::of(body, scenes::pose_of(scene.motion.at(body, time_s))));
     for (std::size_t tick = 0; tick < ticks_a_frame; ++tick) {
       if (!moving.empty()) schedule.first.push_back(schedule.moves.size());
       const Vec3 center = place_of(place, scene, time_s) + wobble(frame * ticks_a_frame + tick);

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "bench/bodies/generated_bodies.h"
-#include "bench/bodies/schedule.h"
 #include "bench/experiments/scaling/body_row.h"
+#include "bench/scenes/generated_bodies.h"
+#include "bench/scenes/schedule.h"
 #include "bench/workload/steps.h"
 
 namespace touchmark::bench::experiments::scaling {
@@ -18,7 +18,7 @@ struct BodyQuestion {
   static constexpr double reach = 0.05;  ///< In body sizes.
 
   /// Throws ResourceError where the poses do not fit in memory.
-  BodyQuestion(const bodies::GeneratedScene& scene, Place where);
+  BodyQuestion(const scenes::GeneratedScene& scene, Place where);
   BodyQuestion(const BodyQuestion&) = delete;
   BodyQuestion& operator=(const BodyQuestion&) = delete;
 
@@ -27,8 +27,8 @@ struct BodyQuestion {
 
   Place place;
   std::size_t moved = 0;
-  bodies::Schedule schedule;
-  bodies::ScheduleView view;
+  scenes::Schedule schedule;
+  scenes::ScheduleView view;
   std::vector<workload::Step> steps;
 };
 

@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/bodies/scene_source.h"
+#include "bench/scenes/scene_source.h"
 #include "bench/support/interrupt.h"
 #include "core/triangle_mesh.h"
 
@@ -113,7 +113,7 @@ bool differ(const workload::Answer& a, const workload::Answer& b) {
 void read_poses(const workload::QueryTrace& trace, std::size_t step) {
   if (trace.schedule == nullptr) return;
   double sum = 0;
-  for (const bodies::BodyMove& move : trace.schedule->at(step))
+  for (const scenes::BodyMove& move : trace.schedule->at(step))
     sum += static_cast<double>(move.body) + move.rotation[0] + move.rotation[8] + move.translation[2];
   [[maybe_unused]] const volatile double read = sum;
 }
@@ -211,15 +211,15 @@ void BodyRun::fill(BodyRow& row, const Asked& asked, const Asked& one, std::vect
 struct BodyRun::World {
   World(std::size_t bodies, const std::string& motion)
       : name(fmt::format("field:{}:motion={}", bodies, motion)),
-        scene(bodies::load_body_scene(name, "")),
-        placed(bodies::placed(scene.scene)),
+        scene(scenes::load_body_scene(name, "")),
+        placed(scenes::placed(scene.scene)),
         questions{BodyQuestion(scene, Place::free), BodyQuestion(scene, Place::beside)} {
     placed.moves = !scene.motion.moving.empty();
   }
 
   std::string name;
-  bodies::GeneratedScene scene;
-  bodies::PlacedScene placed;
+  scenes::GeneratedScene scene;
+  scenes::PlacedScene placed;
   std::array<BodyQuestion, 2> questions;
 };
 
@@ -228,12 +228,12 @@ std::vector<BodyRow> BodyRun::run(std::size_t bodies, const std::string& motion,
   World world(bodies, motion);
   const World one(1, motion);
   workload_ =
-      workload::Workload{world.name, bodies::merged(world.scene.scene, 1), BodyQuestion::reach, {}, {}, {}};
+      workload::Workload{world.name, scenes::merged(world.scene.scene, 1), BodyQuestion::reach, {}, {}, {}};
   for (const BodyQuestion& question : world.questions) {
     workload_->trajectories.emplace_back(name_of(question.place));
     workload_->traces.push_back(question.steps);
   }
-  workload_->scene = std::make_shared<const bodies::BodyScene>(std::move(world.scene.scene));
+  workload_->scene = std::make_shared<const scenes::BodyScene>(std::move(world.scene.scene));
   std::vector<BodyRow> rows;
   std::vector<std::vector<workload::Answer>> right(world.questions.size());
   for (const contestants::ContestantSpec& spec : contestants_) {

@@ -8,13 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "bench/scenes/generated_scenes.h"
+#include "bench/meshes/generated_meshes.h"
 #include "bench/support/numbers.h"
 
 namespace touchmark::bench::experiments::scaling {
 namespace {
 
-constexpr SizesOf of_noisy_spheres{"triangles", 6, scenes::max_generated_triangles};
+constexpr SizesOf of_noisy_spheres{"triangles", 6, meshes::max_generated_triangles};
 
 /// "1.5M".
 std::optional<std::uint64_t> parse_size(std::string_view text, const SizesOf& of) {

@@ -18,7 +18,7 @@ struct SizesOf {
 /// As above, of what is said. Throws std::invalid_argument.
 std::vector<std::uint64_t> parse_sizes(const std::string& text, const SizesOf& of);
 
-/// The scenes that stand for `names`: noisy-sphere and soup in each of the sizes, dragon in its four
+/// The meshes that stand for `names`: noisy-sphere and soup in each of the sizes, dragon in its four
 /// resolutions, all else as it is, from small to large where that is known. `sizes` as for parse_sizes, or
 /// empty for `otherwise`. Throws std::invalid_argument, also for sizes that no name takes.
 std::vector<std::string> meshes_of_sizes(const std::vector<std::string>& names, const std::string& sizes,

@@ -107,7 +107,7 @@ constexpr auto columns = std::to_array<results::Column<ServoLine>>({
     {"ticks", of_tally<loop, &TickTally::ticks>, optional, kinds::whole_number},
     {"missed_ticks", of_tally<loop, &TickTally::missed>, optional, kinds::whole_number},
     {"lost_ticks", of_tally<loop, &TickTally::lost>, optional, kinds::whole_number},
-    {"longest_miss_run", of_tally<loop, &TickTally::longest_run>, optional, kinds::whole_number},
+    {"longest_miss_run", of_tally<loop, &TickTally::max_run>, optional, kinds::whole_number},
     {"miss_rate_below", bound, optional, kinds::share},
     {"latency_ns_p50", percentile<loop, latency, 5000>, optional, kinds::whole_number},
     {"latency_ns_p99", percentile<loop, latency, 9900>, optional, kinds::whole_number},

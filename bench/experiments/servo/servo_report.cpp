@@ -20,7 +20,7 @@ std::string percentile(const LatencyHistogram& histogram, double fraction, std::
 std::vector<std::string> cells_of(const std::string& name, const LoopResult& loop, bool with_query) {
   const TickTally& tally = loop.tally;
   std::vector<std::string> cells{name, fmt::format("{}", tally.ticks()), fmt::format("{}", tally.missed()),
-                                 fmt::format("{}", tally.longest_run())};
+                                 fmt::format("{}", tally.max_run())};
   const auto add = [&cells](const LatencyHistogram& times) {
     cells.insert(cells.end(), {percentile(times, 0.5, 1), percentile(times, 0.99, 1),
                                percentile(times, 0.999, ticks_for_p999), us(times.max_ns())});
@@ -51,8 +51,8 @@ std::string why(const ServoRow& row) {
   std::string text = fmt::format("{} misses in {} ticks: below {:.2g} at {:g} %", misses.missed, misses.ticks,
                                  max_miss_rate(misses.missed, misses.ticks), 100 * usual_confidence);
   if (misses.missed > 0) {
-    text += fmt::format(", up to {} in a row", row.loop->tally.longest_run());
-    if (row.loop->tally.longest_run() >= run_that_stops_a_robot) text += ", where some controllers stop";
+    text += fmt::format(", up to {} in a row", row.loop->tally.max_run());
+    if (row.loop->tally.max_run() >= run_that_stops_a_robot) text += ", where some controllers stop";
   }
   if (misses.idle_missed > 0)
     text += fmt::format("; the machine itself missed {} of {} ticks with nothing asked", misses.idle_missed,

@@ -51,7 +51,7 @@ workload::Selection selection_by_time(workload::Selection selection, const Trian
   return selection;
 }
 
-workload::Workload scene_workload_by_time(bodies::GeneratedScene scene, workload::Selection selection,
+workload::Workload scene_workload_by_time(scenes::GeneratedScene scene, workload::Selection selection,
                                           const std::vector<std::string>& trajectories,
                                           const ServoSettings& settings) {
   for (const std::string& trajectory : trajectories) {

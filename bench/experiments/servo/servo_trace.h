@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/bodies/generated_bodies.h"
 #include "bench/experiments/servo/servo_row.h"
+#include "bench/scenes/generated_bodies.h"
 #include "bench/workload/selection.h"
 #include "bench/workload/workload.h"
 #include "core/triangle_mesh.h"
@@ -28,7 +28,7 @@ workload::Workload workload_by_time(std::string mesh_name, TriangleMesh mesh,
 
 /// Likewise over bodies, which stand at each tick where they are by its time. Throws std::invalid_argument,
 /// also for a generated trajectory at another rate than its own: it was made over bodies of other times.
-workload::Workload scene_workload_by_time(bodies::GeneratedScene scene, workload::Selection selection,
+workload::Workload scene_workload_by_time(scenes::GeneratedScene scene, workload::Selection selection,
                                           const std::vector<std::string>& trajectories,
                                           const ServoSettings& settings);
 

@@ -13,7 +13,7 @@ void TickTally::add(std::span<const workers::TickRecord> stretch) {
     const bool missed = record.asked == 0 || static_cast<double>(record.latency_ns) > period_ns_;
     run = missed ? run + 1 : 0;
     missed_ += missed ? 1 : 0;
-    longest_run_ = std::max(longest_run_, run);
+    max_run_ = std::max(max_run_, run);
     if (record.asked == 0) {
       ++lost_;
       continue;

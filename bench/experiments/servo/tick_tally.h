@@ -35,7 +35,7 @@ class TickTally {
   /// Ticks whose answer came later than a period after their scheduled start, the lost ones among them.
   std::uint64_t missed() const noexcept { return missed_; }
   std::uint64_t lost() const noexcept { return lost_; }
-  std::uint64_t longest_run() const noexcept { return longest_run_; }
+  std::uint64_t max_run() const noexcept { return max_run_; }
   /// From the scheduled start; of a lost tick to the first answer after it.
   const LatencyHistogram& latency() const noexcept { return latency_; }
   /// The query alone, one reading of the clock included.
@@ -54,7 +54,7 @@ class TickTally {
 
   double period_ns_, ns_per_tick_;
   LatencyHistogram latency_, query_;
-  std::uint64_t missed_ = 0, lost_ = 0, longest_run_ = 0, work_max_ = 0;
+  std::uint64_t missed_ = 0, lost_ = 0, max_run_ = 0, work_max_ = 0;
   std::vector<WorstTick> worst_;
   double n_ = 0, work_mean_ = 0, ns_mean_ = 0, work_squares_ = 0, products_ = 0;  // of the line
 };

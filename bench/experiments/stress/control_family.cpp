@@ -5,7 +5,7 @@
 #include "bench/experiments/stress/corner_cases.h"
 #include "bench/experiments/stress/makers.h"
 #include "bench/experiments/stress/questions.h"
-#include "bench/scenes/generated_scenes.h"
+#include "bench/meshes/generated_meshes.h"
 #include "core/float_limits.h"
 
 namespace touchmark::bench::experiments::stress {
@@ -46,8 +46,8 @@ std::vector<workload::Workload> control_family(std::uint64_t seed, std::size_t p
   const auto moved = [&](const TriangleMesh& mesh) {
     return mesh.transformed(random.magnitude(-1, 1), random.vector());
   };
-  meshes.push_back({"noisy-sphere", moved(scenes::noisy_sphere(some(random, 6, 100)))});
-  meshes.push_back({"torus", moved(scenes::torus(some(random, 3, 10), some(random, 3, 6)))});
+  meshes.push_back({"noisy-sphere", moved(meshes::noisy_sphere(some(random, 6, 100)))});
+  meshes.push_back({"torus", moved(meshes::torus(some(random, 3, 10), some(random, 3, 6)))});
   meshes.push_back({"scattered", scattered(random, some(random, 1, 100))});
   const std::size_t each = share_of(probes, meshes.size());
   std::vector<workload::Workload> workloads;

@@ -3,7 +3,7 @@
 #include "bench/experiments/stress/corner_cases.h"
 #include "bench/experiments/stress/makers.h"
 #include "bench/experiments/stress/questions.h"
-#include "bench/scenes/generated_scenes.h"
+#include "bench/meshes/generated_meshes.h"
 
 namespace touchmark::bench::experiments::stress {
 namespace {
@@ -42,7 +42,7 @@ std::vector<workload::Workload> needles(std::uint64_t seed, std::size_t probes) 
     const Vec3 a = cases.vector(), b = a + unit_vector(cases);
     return cases.shuffled({a, b, b + cases.magnitude(thinnest, thickest) * cases.vector()});
   });
-  return corner_case_questions({{"needles", scenes::needles()}, {"random needles", std::move(random)}}, seed,
+  return corner_case_questions({{"needles", meshes::needles()}, {"random needles", std::move(random)}}, seed,
                                probes);
 }
 
@@ -53,7 +53,7 @@ std::vector<workload::Workload> caps(std::uint64_t seed, std::size_t probes) {
     const Vec3 foot = a + cases.between(0.2, 0.8) * direction;
     return cases.shuffled({a, a + direction, foot + cases.magnitude(thinnest, thickest) * cases.vector()});
   });
-  return corner_case_questions({{"caps", scenes::caps()}, {"random caps", std::move(random)}}, seed, probes);
+  return corner_case_questions({{"caps", meshes::caps()}, {"random caps", std::move(random)}}, seed, probes);
 }
 
 std::vector<workload::Workload> degenerate(std::uint64_t seed, std::size_t probes) {
@@ -71,17 +71,17 @@ std::vector<workload::Workload> degenerate(std::uint64_t seed, std::size_t probe
     }
   });
   return corner_case_questions(
-      {{"degenerate", scenes::degenerate()}, {"random degenerate", std::move(random)}}, seed, probes);
+      {{"degenerate", meshes::degenerate()}, {"random degenerate", std::move(random)}}, seed, probes);
 }
 
 std::vector<workload::Workload> spanning_triangle(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
   const Vec3 tilt = 0.25 * cases.vector();
   TriangleMesh across = with(
-      scenes::soup(triangles_of_a_soup),
+      meshes::soup(triangles_of_a_soup),
       {{Vec3(-0.5, -0.5, 0.5 + tilt.x()), Vec3(2, -0.5, 0.5 + tilt.y()), Vec3(-0.5, 2, 0.5 + tilt.z())}});
   TriangleMesh around =
-      with(scenes::icosphere(1), {{Vec3(-2, -2, -1), Vec3(2, -2, 1), Vec3(0, 3, tilt.x())}});
+      with(meshes::icosphere(1), {{Vec3(-2, -2, -1), Vec3(2, -2, 1), Vec3(0, 3, tilt.x())}});
   return corner_case_questions(
       {{"soup and one across", std::move(across)}, {"sphere and one across", std::move(around)}}, seed,
       probes);
@@ -110,7 +110,7 @@ std::vector<workload::Workload> one_cell(std::uint64_t seed, std::size_t probes)
 
 std::vector<workload::Workload> single_triangle(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
-  return corner_case_questions({{"single-triangle", scenes::single_triangle()},
+  return corner_case_questions({{"single-triangle", meshes::single_triangle()},
                                 {"plain", mesh_of({cases.plain()})},
                                 {"needle", mesh_of({cases.needle()})},
                                 {"point", mesh_of({cases.coincident()})}},

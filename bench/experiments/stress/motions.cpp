@@ -2,18 +2,18 @@
 
 #include "bench/experiments/stress/makers.h"
 #include "bench/experiments/stress/questions.h"
-#include "bench/scenes/generated_scenes.h"
+#include "bench/meshes/generated_meshes.h"
 #include "bench/trajectories/trajectories.h"
 
 namespace touchmark::bench::experiments::stress {
 
 std::vector<workload::Workload> motions(std::uint64_t seed, std::size_t probes) {
   std::vector<NamedMesh> meshes;
-  meshes.push_back({"torus:48x24", scenes::torus(48, 24)});
-  meshes.push_back({"thin-plate", scenes::thin_plate()});
-  meshes.push_back({"noisy-sphere:2000", scenes::noisy_sphere(2000)});
-  meshes.push_back({"wedge", scenes::wedge()});
-  meshes.push_back({"soup:1000", scenes::soup(1000)});
+  meshes.push_back({"torus:48x24", meshes::torus(48, 24)});
+  meshes.push_back({"thin-plate", meshes::thin_plate()});
+  meshes.push_back({"noisy-sphere:2000", meshes::noisy_sphere(2000)});
+  meshes.push_back({"wedge", meshes::wedge()});
+  meshes.push_back({"soup:1000", meshes::soup(1000)});
   const std::vector<trajectories::TrajectoryInfo> shapes = trajectories::trajectories();
   const std::size_t steps = share_of(probes, meshes.size() * shapes.size());
   std::vector<workload::Workload> workloads;

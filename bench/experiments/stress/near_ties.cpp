@@ -4,7 +4,7 @@
 
 #include "bench/experiments/stress/makers.h"
 #include "bench/experiments/stress/questions.h"
-#include "bench/scenes/generated_scenes.h"
+#include "bench/meshes/generated_meshes.h"
 
 namespace touchmark::bench::experiments::stress {
 namespace {
@@ -51,7 +51,7 @@ std::vector<workload::Workload> near_ties(std::uint64_t seed, std::size_t probes
   workloads.push_back(turned(cases, each));
   workloads.push_back(turned(cases, each));
   workloads.push_back(between({"needles and others", mesh_of(soup)}, cases, 0.5, each));
-  workloads.push_back(between({"icosphere", scenes::icosphere(2)}, cases, 0.2, each));
+  workloads.push_back(between({"icosphere", meshes::icosphere(2)}, cases, 0.2, each));
   return workloads;
 }
 

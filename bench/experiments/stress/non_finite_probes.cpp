@@ -7,7 +7,7 @@
 #include "bench/experiments/stress/corner_cases.h"
 #include "bench/experiments/stress/makers.h"
 #include "bench/experiments/stress/questions.h"
-#include "bench/scenes/generated_scenes.h"
+#include "bench/meshes/generated_meshes.h"
 #include "core/float_limits.h"
 
 namespace touchmark::bench::experiments::stress {
@@ -40,7 +40,7 @@ std::vector<workload::Step> far_and_large(std::size_t count, CornerCases& cases)
 
 std::vector<workload::Workload> huge(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
-  const TriangleMesh mesh = scenes::icosphere(1);
+  const TriangleMesh mesh = meshes::icosphere(1);
   std::vector<Vec3> far;
   while (far.size() < share_of(probes, 6)) far.emplace_back(cases.magnitude(3, 150) * cases.vector());
   std::vector<workload::Step> thresholds = at_the_exact_distance(mesh, far);
@@ -90,8 +90,8 @@ std::vector<workload::Workload> not_a_number(std::uint64_t seed, std::size_t pro
     const workload::Step step{{2 * cases.vector(), one_of({nan, -1, -least, -infinity, -0.0}, cases)}, 0};
     radii.push_back({step.probe, step.probe.radius});
   }
-  return {workload_on({"icosphere:1", scenes::icosphere(1)}, "centres", std::move(centers)),
-          workload_on({"icosphere:1", scenes::icosphere(1)}, "radii", std::move(radii))};
+  return {workload_on({"icosphere:1", meshes::icosphere(1)}, "centres", std::move(centers)),
+          workload_on({"icosphere:1", meshes::icosphere(1)}, "radii", std::move(radii))};
 }
 
 }  // namespace touchmark::bench::experiments::stress

@@ -10,7 +10,7 @@
 #include "bench/experiments/stress/corner_cases.h"
 #include "bench/experiments/stress/makers.h"
 #include "bench/experiments/stress/questions.h"
-#include "bench/scenes/generated_scenes.h"
+#include "bench/meshes/generated_meshes.h"
 #include "core/float_limits.h"
 
 namespace touchmark::bench::experiments::stress {
@@ -94,7 +94,7 @@ std::vector<workload::Workload> radius_zero(std::uint64_t seed, std::size_t prob
   std::vector<workload::Workload> workloads;
   std::vector<NamedMesh> meshes;
   meshes.push_back({"lattice triangles", lattice_triangles(cases, 60)});
-  meshes.push_back({"cube", scenes::cube()});
+  meshes.push_back({"cube", meshes::cube()});
   for (NamedMesh& mesh : meshes) {
     std::vector<workload::Step> trace;
     while (trace.size() < share_of(probes, meshes.size())) {
@@ -117,16 +117,16 @@ std::vector<workload::Workload> ties(std::uint64_t seed, std::size_t probes) {
     in_cube.push_back(cases.below(2) == 0 ? Vec3(t, t, u) : Vec3(t, -t, t));
   }
   while (in_plane.size() < centers_each) in_plane.emplace_back(6 * half(), 6 * half(), 0);
-  on_doubled = corner_case_centers(scenes::doubled(), centers_each, seed);
+  on_doubled = corner_case_centers(meshes::doubled(), centers_each, seed);
   on_doubled.resize(centers_each);
 
   TriangleMesh mirror = mirrored(lattice_triangles(cases, 60));
-  std::vector<workload::Step> of_cube = at_the_exact_distance(scenes::cube(), in_cube);
+  std::vector<workload::Step> of_cube = at_the_exact_distance(meshes::cube(), in_cube);
   std::vector<workload::Step> of_mirror = at_the_exact_distance(mirror, in_plane);
-  std::vector<workload::Step> of_doubled = at_the_exact_distance(scenes::doubled(), on_doubled);
-  return {workload_on({"cube", scenes::cube()}, "centre and diagonal planes", std::move(of_cube)),
+  std::vector<workload::Step> of_doubled = at_the_exact_distance(meshes::doubled(), on_doubled);
+  return {workload_on({"cube", meshes::cube()}, "centre and diagonal planes", std::move(of_cube)),
           workload_on({"mirror images", std::move(mirror)}, "in the mirror's plane", std::move(of_mirror)),
-          workload_on({"doubled", scenes::doubled()}, "hard centres", std::move(of_doubled))};
+          workload_on({"doubled", meshes::doubled()}, "hard centres", std::move(of_doubled))};
 }
 
 std::vector<workload::Workload> cell_borders(std::uint64_t seed, std::size_t probes) {

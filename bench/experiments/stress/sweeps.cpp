@@ -9,7 +9,7 @@
 #include "bench/experiments/stress/corner_cases.h"
 #include "bench/experiments/stress/makers.h"
 #include "bench/experiments/stress/questions.h"
-#include "bench/scenes/generated_scenes.h"
+#include "bench/meshes/generated_meshes.h"
 
 namespace touchmark::bench::experiments::stress {
 namespace {
@@ -32,13 +32,13 @@ std::vector<workload::Workload> sweeps(std::uint64_t seed, std::size_t probes) {
   std::vector<CornerCases::Corners> thin, whole;
   for (int i = 0; i < 60; ++i) thin.push_back(i % 2 == 0 ? cases.needle() : cases.cap());
   for (int i = 0; i < 60; ++i) whole.push_back(cases.on_lattice());
-  return sweeps_on({{"icosphere", scenes::icosphere(2)},
-                    {"noisy-sphere", scenes::noisy_sphere(400)},
-                    {"cube", scenes::cube()},
-                    {"soup", scenes::soup(200)},
+  return sweeps_on({{"icosphere", meshes::icosphere(2)},
+                    {"noisy-sphere", meshes::noisy_sphere(400)},
+                    {"cube", meshes::cube()},
+                    {"soup", meshes::soup(200)},
                     {"needles and caps", mesh_of(thin)},
                     {"whole numbers", mesh_of(whole)},
-                    {"degenerate", scenes::degenerate()}},
+                    {"degenerate", meshes::degenerate()}},
                    seed, probes);
 }
 
@@ -47,13 +47,13 @@ std::vector<workload::Workload> far_sweeps(std::uint64_t seed, std::size_t probe
   std::vector<NamedMesh> meshes;
   for (const int exponent : {34, 42, 48, 50}) {
     meshes.push_back({fmt::format("icosphere moved by 2^{}", exponent),
-                      scenes::icosphere(2).transformed(1, std::ldexp(1.0, exponent) * cases.vector())});
+                      meshes::icosphere(2).transformed(1, std::ldexp(1.0, exponent) * cases.vector())});
     meshes.push_back({fmt::format("soup moved by 2^{}", exponent),
-                      scenes::soup(100).transformed(1, std::ldexp(1.0, exponent) * cases.vector())});
+                      meshes::soup(100).transformed(1, std::ldexp(1.0, exponent) * cases.vector())});
   }
   for (const int exponent : {-1020, -500, -140, -70, 70, 140, 500, 1000})
     meshes.push_back({fmt::format("soup@scale=2^{}", exponent),
-                      scenes::soup(60).transformed(std::ldexp(1.0, exponent), Vec3::Zero())});
+                      meshes::soup(60).transformed(std::ldexp(1.0, exponent), Vec3::Zero())});
   return sweeps_on(std::move(meshes), seed, probes);
 }
 

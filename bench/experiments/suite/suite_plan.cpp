@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/scenes/scenes.h"
-#include "bench/scenes/sized_scenes.h"
+#include "bench/meshes/meshes.h"
+#include "bench/meshes/sized_meshes.h"
 #include "bench/support/random.h"
 #include "bench/workload/query_name.h"
 
@@ -44,11 +44,11 @@ double rarity(const std::vector<std::string>& properties, Counts& counts) {
   return sum;
 }
 
-/// Takes the cell out of `left` whose properties came up least, in the scene and in all.
-SuiteCell take_rarest(std::vector<SuiteCell>& left, Counts& of_scene, Counts& of_all) {
+/// Takes the cell out of `left` whose properties came up least, in the mesh and in all.
+SuiteCell take_rarest(std::vector<SuiteCell>& left, Counts& of_mesh, Counts& of_all) {
   const auto score = [&](const SuiteCell& cell) {
     const std::vector<std::string> properties = properties_of(cell);
-    return rarity(properties, of_scene) + rarity(properties, of_all);
+    return rarity(properties, of_mesh) + rarity(properties, of_all);
   };
   auto best = left.begin();
   double most = -1;
@@ -58,7 +58,7 @@ SuiteCell take_rarest(std::vector<SuiteCell>& left, Counts& of_scene, Counts& of
   SuiteCell taken = *best;
   left.erase(best);
   for (const std::string& property : properties_of(taken)) {
-    ++of_scene[property];
+    ++of_mesh[property];
     ++of_all[property];
   }
   return taken;
@@ -68,7 +68,7 @@ SuiteCell take_rarest(std::vector<SuiteCell>& left, Counts& of_scene, Counts& of
 
 std::size_t SuitePlan::cells() const noexcept {
   std::size_t count = 0;
-  for (const SuiteScene& scene : scenes) count += scene.cells.size();
+  for (const SuiteMesh& planned : meshes) count += planned.cells.size();
   return count;
 }
 
@@ -92,25 +92,25 @@ std::vector<SuiteCell> every_cell() {
 std::vector<std::string> suite_meshes(std::uint64_t triangles) {
   const std::array sizes{triangles, triangles / 3, 2 * triangles, triangles / 6};
   std::vector<std::string> meshes;
-  for (const scenes::SceneInfo& scene : scenes::scenes()) {
-    if (scene.name == "bunny" && scene.available) meshes.emplace_back("bunny");
-    if (scene.name.starts_with("dragon") && scene.available) meshes.emplace_back("dragon:3");
+  for (const meshes::NamedMesh& named : meshes::named_meshes()) {
+    if (named.name == "bunny" && named.available) meshes.emplace_back("bunny");
+    if (named.name.starts_with("dragon") && named.available) meshes.emplace_back("dragon:3");
   }
   for (const char* file : files) {
     std::error_code ignored;
     if (std::filesystem::exists(file, ignored)) meshes.emplace_back(file);
   }
   std::size_t next = 0;
-  for (const scenes::SizedScene& scene : scenes::sized_scenes()) {
-    const std::string_view form = scene.form;
+  for (const meshes::SizedMesh& sized : meshes::sized_meshes()) {
+    const std::string_view form = sized.form;
     const std::string_view kind = form.substr(0, form.find(':'));
     const std::uint64_t size =
         kind == slow_kind ? std::min(triangles, slow_kind_triangles) : sizes[next++ % sizes.size()];
-    meshes.push_back(fmt::format("{}:{}", kind, std::max(size, scene.min_triangles)));
+    meshes.push_back(fmt::format("{}:{}", kind, std::max(size, sized.min_triangles)));
   }
   meshes.push_back(fmt::format("soup:{}", 2 * triangles));
-  for (const char* scene : {"icosphere:5", "torus:400x8", "thin-plate", "sliver-fan"})
-    meshes.emplace_back(scene);
+  for (const char* name : {"icosphere:5", "torus:400x8", "thin-plate", "sliver-fan"})
+    meshes.emplace_back(name);
   return meshes;
 }
 
@@ -119,18 +119,18 @@ SuitePlan make_plan(const std::vector<std::string>& meshes, std::size_t cells_ea
   support::Random random(seed);
   SuitePlan plan;
   std::vector<std::vector<SuiteCell>> left;
-  std::vector<Counts> of_scene(meshes.size());
+  std::vector<Counts> of_mesh(meshes.size());
   Counts of_all;
   for (const std::string& mesh : meshes) {
-    plan.scenes.push_back({mesh, {}});
+    plan.meshes.push_back({mesh, {}});
     left.push_back(every_cell());
     random.shuffle(left.back());  // decides between cells whose properties came up equally often
   }
   for (std::size_t round = 0; round < cells_each; ++round) {
     for (std::size_t i = 0; i < meshes.size() && !left[i].empty(); ++i)
-      plan.scenes[i].cells.push_back(take_rarest(left[i], of_scene[i], of_all));
+      plan.meshes[i].cells.push_back(take_rarest(left[i], of_mesh[i], of_all));
   }
-  for (SuiteScene& scene : plan.scenes) scene.cells.back().cold = cold;
+  for (SuiteMesh& planned : plan.meshes) planned.cells.back().cold = cold;
   return plan;
 }
 

@@ -1,4 +1,4 @@
-/// What `touchmark bench --suite` measures: cells of scene, motion, question and reach, as many of each kind
+/// What `touchmark bench --suite` measures: cells of mesh, motion, question and reach, as many of each kind
 /// as of any other, however few are chosen.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace touchmark::bench::experiments::suite {
 
-/// One thing to measure on a scene.
+/// One thing to measure on a mesh.
 struct SuiteCell {
   std::string trajectory;  ///< as --trajectory takes it: "slide:speed=0.1%"
   workload::Query query = workload::Query::nearest;
@@ -22,28 +22,28 @@ struct SuiteCell {
   std::string radius() const { return reach == "inf" ? "0.5%" : reach; }
 };
 
-struct SuiteScene {
+struct SuiteMesh {
   std::string mesh;  ///< as --mesh takes it
   std::vector<SuiteCell> cells;
 };
 
 struct SuitePlan {
-  std::vector<SuiteScene> scenes;
+  std::vector<SuiteMesh> meshes;
 
   std::size_t cells() const noexcept;
 };
 
-/// Returns every cell of one scene: four speeds of three motions and one without coherence, three queries,
+/// Returns every cell of one mesh: four speeds of three motions and one without coherence, three queries,
 /// four reaches; all that makes sense.
 std::vector<SuiteCell> every_cell();
 
-/// Returns the scenes: every kind that comes in any size, from about a sixth of `triangles` to twice as many,
+/// Returns the meshes: every kind that comes in any size, from about a sixth of `triangles` to twice as many,
 /// some more, and scans where their files are installed.
 std::vector<std::string> suite_meshes(std::uint64_t triangles);
 
-/// Chooses `cells_each` cells, at least 1, for every scene (all, where there are not so many), such that over
+/// Chooses `cells_each` cells, at least 1, for every mesh (all, where there are not so many), such that over
 /// the plan the motions, and the queries with their reaches, come up equally often, as in all cells. A plan
-/// of fewer cells is the beginning of one of more. Where `cold`, the last of each scene is also measured so:
+/// of fewer cells is the beginning of one of more. Where `cold`, the last of each mesh is also measured so:
 /// it takes longest, and is what is left out where time is short.
 SuitePlan make_plan(const std::vector<std::string>& meshes, std::size_t cells_each, std::uint64_t seed,
                     bool cold = true);

@@ -25,7 +25,7 @@ std::string two_digits(double value) { return fmt::format("{:.2f}", value); }
 std::string optional_ratio(std::optional<double> ratio) { return ratio ? two_digits(*ratio) : ""; }
 
 /// Returns the least of a row's ratios, if any.
-std::optional<double> least_ratio(const SuiteRow& row) {
+std::optional<double> min_ratio(const SuiteRow& row) {
   std::optional<double> least;
   for (const Score& score : scores) {
     const std::optional<double> ratio = score.ratio(row);
@@ -67,11 +67,11 @@ std::string summary_table(const std::vector<SuiteRow>& rows) {
 std::string list_of_losses(const std::vector<SuiteRow>& rows, std::size_t most) {
   std::vector<const SuiteRow*> lost;
   for (const SuiteRow& row : rows) {
-    if (row.ours == best_of_ours && least_ratio(row).value_or(1) < 1) lost.push_back(&row);
+    if (row.ours == best_of_ours && min_ratio(row).value_or(1) < 1) lost.push_back(&row);
   }
   if (lost.empty()) return "no rival is ahead of the best of ours in any cell\n";
   std::stable_sort(lost.begin(), lost.end(),
-                   [](const SuiteRow* a, const SuiteRow* b) { return *least_ratio(*a) < *least_ratio(*b); });
+                   [](const SuiteRow* a, const SuiteRow* b) { return *min_ratio(*a) < *min_ratio(*b); });
   support::Table table({"cell", "mean: exact", "all", "tail: exact", "all", "ours", "rival", ""});
   for (std::size_t i = 0; i < std::min(most, lost.size()); ++i) {
     const SuiteRow& row = *lost[i];

@@ -8,11 +8,11 @@
 
 namespace touchmark::bench::experiments::suite {
 
-SceneWorkload workload_of(const SuiteScene& scene, const TriangleMesh& mesh, std::size_t steps,
-                          std::uint64_t seed) {
-  SceneWorkload all{{results::without_directories(scene.mesh), mesh, 0, {}, {}, {}}, {}};
+MeshWorkload workload_of(const SuiteMesh& planned, const TriangleMesh& mesh, std::size_t steps,
+                         std::uint64_t seed) {
+  MeshWorkload all{{results::without_directories(planned.mesh), mesh, 0, {}, {}, {}}, {}};
   std::vector<const SuiteCell*> made;
-  for (const SuiteCell& cell : scene.cells) {
+  for (const SuiteCell& cell : planned.cells) {
     const auto known = std::find_if(made.begin(), made.end(), [&](const SuiteCell* other) {
       return other->trajectory == cell.trajectory && other->reach == cell.reach;
     });

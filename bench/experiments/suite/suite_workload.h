@@ -1,4 +1,4 @@
-/// The workload of one scene of the suite: each motion and reach once, whatever is asked along it.
+/// The workload of one mesh of the suite: each motion and reach once, whatever is asked along it.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace touchmark::bench::experiments::suite {
 
-struct SceneWorkload {
+struct MeshWorkload {
   workload::Workload workload;
-  std::vector<std::size_t> trace_of;  ///< one a cell of the scene
+  std::vector<std::size_t> trace_of;  ///< one a cell of the mesh
 };
 
 /// Throws std::invalid_argument or ResourceError.
-SceneWorkload workload_of(const SuiteScene& scene, const TriangleMesh& mesh, std::size_t steps,
-                          std::uint64_t seed);
+MeshWorkload workload_of(const SuiteMesh& planned, const TriangleMesh& mesh, std::size_t steps,
+                         std::uint64_t seed);
 
 }  // namespace touchmark::bench::experiments::suite

@@ -40,10 +40,10 @@ std::vector<workload::Step> near_what_moved(const TriangleMesh& before, const Tr
 
 }  // namespace
 
-UpdateRun::Scene::Scene(const TriangleMesh& undeformed, const scenes::Deformation& how)
+UpdateRun::DeformedMesh::DeformedMesh(const TriangleMesh& undeformed, const meshes::Deformation& how)
     : deformation(how),
-      mesh(scenes::deformed(undeformed, how)),
-      moved(scenes::moved_vertices(undeformed, mesh)),
+      mesh(meshes::deformed(undeformed, how)),
+      moved(meshes::moved_vertices(undeformed, mesh)),
       oracle(mesh) {}
 
 UpdateRun::UpdateRun(const contestants::Roster& roster,
@@ -56,8 +56,8 @@ UpdateRun::UpdateRun(const contestants::Roster& roster,
         workload::Workload all{std::move(mesh_name), mesh, selection.radius.in_mesh_units(mesh), {}, {}, {}};
         if (selection.reach) all.reach = selection.reach->in_mesh_units(mesh);
         for (const double share : shares) {
-          scenes_.push_back(std::make_unique<Scene>(mesh, scenes::Deformation{share, selection.seed}));
-          workload::Workload one = workload::make_workload(all.mesh_name, scenes_.back()->mesh, selection,
+          meshes_.push_back(std::make_unique<DeformedMesh>(mesh, meshes::Deformation{share, selection.seed}));
+          workload::Workload one = workload::make_workload(all.mesh_name, meshes_.back()->mesh, selection,
                                                            {trajectory}, default_steps);
           const std::string after = fmt::format("after {:g} % moved", 100 * share);
           all.trajectories.push_back(one.trajectories[0] + ' ' + after);
@@ -67,7 +67,7 @@ UpdateRun::UpdateRun(const contestants::Roster& roster,
           all.unit = one.unit;
           all.traces.push_back(std::move(one.traces[0]));
           all.traces.push_back(
-              near_what_moved(mesh, scenes_.back()->mesh, all.traces.back()[0], selection.seed));
+              near_what_moved(mesh, meshes_.back()->mesh, all.traces.back()[0], selection.seed));
         }
         return all;
       }()},
@@ -75,8 +75,8 @@ UpdateRun::UpdateRun(const contestants::Roster& roster,
   for (const contestants::ContestantSpec& spec : contestants)
     processes_.emplace_back(arena_, spec, roster.find(spec.name).worker_program(spec.values));
   for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
-    Scene& scene = *scenes_[trace / traces_a_scene];
-    scene.truths.emplace_back(scene.oracle, workload_.traces[trace]);
+    DeformedMesh& changed = *meshes_[trace / traces_a_mesh];
+    changed.truths.emplace_back(changed.oracle, workload_.traces[trace]);
   }
 }
 
@@ -92,12 +92,12 @@ workers::Timed UpdateRun::timed(workers::ContestantProcess& process, const worke
 }
 
 void UpdateRun::measure(workers::ContestantProcess& process, std::size_t index, UpdateRow& row) {
-  Scene& scene = *scenes_[index];
+  DeformedMesh& changed = *meshes_[index];
   const workers::Built& built = process.build();
   row.accuracy = built.accuracy;
   const bool answers = std::find(built.queries.begin(), built.queries.end(), query_) != built.queries.end();
   const workers::Updated updated =
-      answers ? process.ask(workers::request::Update{scene.deformation}) : workers::Updated{};
+      answers ? process.ask(workers::request::Update{changed.deformation}) : workers::Updated{};
   if (!updated.supported) {
     row.status = "unsupported";
     return;
@@ -105,16 +105,16 @@ void UpdateRun::measure(workers::ContestantProcess& process, std::size_t index, 
   if (!updated.refused.empty()) throw workers::WorkerFailure("refused: " + updated.refused);
   row.updated = updated;
   oracle::ErrorCounts counts;
-  for (std::size_t k = 0; k < traces_a_scene; ++k) {
-    const workers::Task task = task_for(traces_a_scene * index + k);
+  for (std::size_t k = 0; k < traces_a_mesh; ++k) {
+    const workers::Task task = task_for(traces_a_mesh * index + k);
     process.ask(workers::request::Answer{task});
-    counts += scene.truths[k].judge(query_, workload::sample_steps(task.steps, task.steps),
-                                    arena_.buffers().answers(task.steps), *row.accuracy);
+    counts += changed.truths[k].judge(query_, workload::sample_steps(task.steps, task.steps),
+                                      arena_.buffers().answers(task.steps), *row.accuracy);
   }
   row.counts = counts;
-  const workers::Task along = task_for(traces_a_scene * index);
+  const workers::Task along = task_for(traces_a_mesh * index);
   const workers::Timed after_update = timed(process, along);
-  process.ask(workers::request::Rebuild{scene.deformation});
+  process.ask(workers::request::Rebuild{changed.deformation});
   const workers::Timed after_build = timed(process, along);
   row.ns_updated = after_update.cpu_ns_per_query;
   row.ns_built = after_build.cpu_ns_per_query;
@@ -126,17 +126,17 @@ std::vector<UpdateRow> UpdateRun::run(std::size_t contestant,
   workers::ContestantProcess& process = processes_[contestant];
   const contestants::ContestantSpec& spec = process.spec();
   std::vector<UpdateRow> rows;
-  for (std::size_t i = 0; i < scenes_.size(); ++i) {
+  for (std::size_t i = 0; i < meshes_.size(); ++i) {
     support::check_for_interrupt();
-    progress(scenes_[i]->deformation.share);
+    progress(meshes_[i]->deformation.share);
     UpdateRow& row = rows.emplace_back();
     row.detector = spec.name;
     row.options = spec.options;
     row.mesh = workload_.mesh_name;
     row.triangles = workload_.mesh.size();
     row.vertices = workload_.mesh.vertices().size();
-    row.share = scenes_[i]->deformation.share;
-    row.moved_vertices = scenes_[i]->moved;
+    row.share = meshes_[i]->deformation.share;
+    row.moved_vertices = meshes_[i]->moved;
     try {
       measure(process, i, row);
     } catch (const workers::WorkerFailure& failure) {

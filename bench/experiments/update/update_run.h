@@ -12,8 +12,8 @@
 #include "bench/contestants/contestant_info.h"
 #include "bench/experiments/update/update_row.h"
 #include "bench/ground_truth/ground_truth.h"
+#include "bench/meshes/deformation.h"
 #include "bench/oracle/oracle.h"
-#include "bench/scenes/deformation.h"
 #include "bench/workers/contestant_process.h"
 #include "bench/workload/workload.h"
 #include "core/triangle_mesh.h"
@@ -37,23 +37,23 @@ class UpdateRun {
 
  private:
   /// A deformed mesh with what is asked of it: first the trajectory, then probes about what moved.
-  struct Scene {
-    Scene(const TriangleMesh& mesh, const scenes::Deformation& how);
+  struct DeformedMesh {
+    DeformedMesh(const TriangleMesh& mesh, const meshes::Deformation& how);
 
-    scenes::Deformation deformation;
+    meshes::Deformation deformation;
     TriangleMesh mesh;
     std::size_t moved;
     oracle::Oracle oracle;
     std::vector<ground_truth::GroundTruths> truths;  // one a trace
   };
-  static constexpr std::size_t traces_a_scene = 2;
+  static constexpr std::size_t traces_a_mesh = 2;
 
-  void measure(workers::ContestantProcess& process, std::size_t scene, UpdateRow& row);
+  void measure(workers::ContestantProcess& process, std::size_t index, UpdateRow& row);
   workers::Task task_for(std::size_t trace) const;
   workers::Timed timed(workers::ContestantProcess& process, const workers::Task& task) const;
 
   workload::Query query_;
-  std::vector<std::unique_ptr<Scene>> scenes_;
+  std::vector<std::unique_ptr<DeformedMesh>> meshes_;
   workload::Workload workload_;
   workers::SharedArena arena_;
   std::deque<workers::ContestantProcess> processes_;

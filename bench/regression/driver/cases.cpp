@@ -82,10 +82,10 @@ const char* name_of(TouchmarkGateQuery query) {
 }  // namespace
 
 std::string Case::name() const {
-  return std::string(detector) + '/' + scene + '/' + trajectory + '/' + name_of(query);
+  return std::string(detector) + '/' + mesh + '/' + trajectory + '/' + name_of(query);
 }
 
-bool Case::needs_file() const { return std::string_view(scene) == "bunny"; }
+bool Case::needs_file() const { return std::string_view(mesh) == "bunny"; }
 
 std::span<const Case> cases() { return pinned; }
 

@@ -47,11 +47,11 @@ std::string answers_row(const PluginLibrary& plugin, Workloads& workloads, const
   }
 }
 
-/// Cases one after the other that share scene and detector, so that these are built once.
+/// Cases one after the other that share mesh and detector, so that these are built once.
 using Group = std::vector<Case>;
 
 bool share_detector(const Case& a, const Case& b) {
-  return std::string_view(a.detector) == b.detector && std::string_view(a.scene) == b.scene;
+  return std::string_view(a.detector) == b.detector && std::string_view(a.mesh) == b.mesh;
 }
 
 /// Returns the cases whose mesh is here. Throws std::invalid_argument when `only` names what is no timed

@@ -1,6 +1,6 @@
 /// The pinned meshes are generated, or in formats that core reads itself without libraries: so the gate needs
 /// neither assimp nor pugixml nor nlohmann-json, which exist for fewer processors than core does.
-#include "bench/scenes/mesh_import.h"
+#include "bench/meshes/mesh_import.h"
 #include "core/mesh_io/read_dae.h"
 #include "core/mesh_io/read_gltf.h"
 
@@ -14,7 +14,7 @@ mesh_io::SceneGraph mesh_io::read_gltf(std::string_view, const std::filesystem::
   throw MeshError("the regression gate reads no glTF");
 }
 
-bench::scenes::ImportedMesh bench::scenes::import_mesh(const std::filesystem::path& path) {
+bench::meshes::ImportedMesh bench::meshes::import_mesh(const std::filesystem::path& path) {
   return {load_mesh_file(path)};
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "bench/trajectories/trajectories.h"
 
 namespace touchmark::bench::regression::driver {
@@ -45,36 +45,35 @@ std::uint64_t fingerprint(const Workload& workload) {
 
 bool Workloads::available(const Case& asked) {
   if (!asked.needs_file()) return true;
-  const std::vector<scenes::SceneInfo> known = scenes::scenes();
-  return std::any_of(known.begin(), known.end(), [&](const scenes::SceneInfo& info) {
-    return info.name == asked.scene && info.available;
+  const std::vector<meshes::NamedMesh> known = meshes::named_meshes();
+  return std::any_of(known.begin(), known.end(), [&](const meshes::NamedMesh& info) {
+    return info.name == asked.mesh && info.available;
   });
 }
 
-const Workloads::Scene& Workloads::scene(const std::string& name) {
-  const auto found = scenes_.find(name);
-  if (found != scenes_.end()) return found->second;
-  TriangleMesh mesh = scenes::load_scene(name);
+const Workloads::LoadedMesh& Workloads::mesh(const std::string& name) {
+  const auto found = meshes_.find(name);
+  if (found != meshes_.end()) return found->second;
+  TriangleMesh mesh = meshes::load_mesh(name);
   std::vector<double> vertices = flat(mesh.vertices());
   std::vector<std::uint32_t> triangles;
   triangles.reserve(3 * mesh.size());
   for (const TriangleMesh::Corners& corners : mesh.triangles())
     triangles.insert(triangles.end(), corners.begin(), corners.end());
-  return scenes_.emplace(name, Scene{std::move(mesh), std::move(vertices), std::move(triangles)})
+  return meshes_.emplace(name, LoadedMesh{std::move(mesh), std::move(vertices), std::move(triangles)})
       .first->second;
 }
 
 Workload Workloads::of(const Case& asked) {
-  const Scene& scene = this->scene(asked.scene);
-  const double radius = radius_of_diagonal * scene.mesh.diagonal();
-  std::vector<double>& centers =
-      centers_[{asked.scene + std::string(1, '/') + asked.trajectory, asked.steps}];
+  const LoadedMesh& loaded = this->mesh(asked.mesh);
+  const double radius = radius_of_diagonal * loaded.mesh.diagonal();
+  std::vector<double>& centers = centers_[{asked.mesh + std::string(1, '/') + asked.trajectory, asked.steps}];
   if (centers.empty())
-    centers =
-        flat(trajectories::make_trajectory(asked.trajectory, scene.mesh, {asked.steps, 1, radius}).positions);
+    centers = flat(
+        trajectories::make_trajectory(asked.trajectory, loaded.mesh, {asked.steps, 1, radius}).positions);
   Workload workload;
-  workload.mesh = {scene.vertices.data(), scene.vertices.size() / 3, scene.triangles.data(),
-                   scene.triangles.size() / 3};
+  workload.mesh = {loaded.vertices.data(), loaded.vertices.size() / 3, loaded.triangles.data(),
+                   loaded.triangles.size() / 3};
   workload.pass = {asked.query, centers.data(), centers.size() / 3, radius, radius, 0};
   workload.inputs = fingerprint(workload);
   return workload;

@@ -28,14 +28,14 @@ class Workloads {
   Workload of(const Case& asked);
 
  private:
-  struct Scene {
+  struct LoadedMesh {
     TriangleMesh mesh;
     std::vector<double> vertices;
     std::vector<std::uint32_t> triangles;
   };
-  const Scene& scene(const std::string& name);
+  const LoadedMesh& mesh(const std::string& name);
 
-  std::map<std::string, Scene> scenes_;
+  std::map<std::string, LoadedMesh> meshes_;
   std::map<std::pair<std::string, std::size_t>, std::vector<double>> centers_;
 };
 

@@ -130,7 +130,7 @@ PairedBatches::PairedBatches(const contestants::Roster& roster, const workload::
       seed_(seed) {}
 
 void PairedBatches::choose_steps(Contender& detector, Contender& reference) {
-  const double budget = effort_.longest_pass_ns;
+  const double budget = effort_.max_pass_ns;
   const double slower = std::max(detector.ns_per_query(budget), reference.ns_per_query(budget));
   const std::size_t all = workload_.traces[pair_.trace].size();
   const double wanted = std::clamp(budget / slower, 1.0, static_cast<double>(all));

@@ -23,9 +23,9 @@ class GateFailure : public std::runtime_error {
 };
 
 struct GateEffort {
-  std::size_t rounds = 31;        ///< one turn each
-  double turn_ns = 8e6;           ///< a turn replays the steps until it has lasted so long
-  double longest_pass_ns = 20e6;  ///< a replay of the steps may take so long where the gate chooses how many
+  std::size_t rounds = 31;    ///< one turn each
+  double turn_ns = 8e6;       ///< a turn replays the steps until it has lasted so long
+  double max_pass_ns = 20e6;  ///< a replay of the steps may take so long where the gate chooses how many
 };
 
 struct GatePair {

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t most_of_a_kind = 300;
+constexpr std::size_t max_of_a_kind = 300;
 
 /// Checks what the schema cannot say, of a document that follows it.
 class VisitsCheck {
@@ -98,9 +98,9 @@ class VisitsCheck {
     });
     if (!step.contains("left_out")) return;
     for (const auto& [name, count] : step.at("left_out").items()) {
-      if (!step.contains(name) || step.at(name).size() != most_of_a_kind)
+      if (!step.contains(name) || step.at(name).size() != max_of_a_kind)
         fault(pointer + "/left_out/" + name, count.dump(),
-              fmt::format("were left out of a list that does not hold {}", most_of_a_kind));
+              fmt::format("were left out of a list that does not hold {}", max_of_a_kind));
     }
   }
 

@@ -19,7 +19,7 @@ constexpr double pi = 3.14159;
 constexpr double comparing_margin = 0.5;
 /// How many times the volume of cylinders boxes may have: they are tested in fewer instructions, and fill the
 /// upper levels better than the blocks.
-constexpr double most_volume = 1.6;
+constexpr double max_volume = 1.6;
 
 BoundingBox box_of(const Node& node, std::size_t i) noexcept {
   return {{node.x()[i], node.y()[i], node.z()[i]}, {node.half_x()[i], node.half_y()[i], node.half_z()[i]}};
@@ -65,8 +65,8 @@ struct BothBounds {
 
 /// Bounds the blocks below some nodes, about so many or all, evenly among the others.
 BothBounds sampled_bounds(const Parts& parts, const TriangleMesh& mesh, const FilterFrame& frame) {
-  constexpr std::size_t fewest = 256, most_apart = 8;
-  const std::size_t apart = std::clamp<std::size_t>(parts.nodes.size() / fewest, 1, most_apart);
+  constexpr std::size_t fewest = 256, max_apart = 8;
+  const std::size_t apart = std::clamp<std::size_t>(parts.nodes.size() / fewest, 1, max_apart);
   BoundOfTriangles around(mesh, frame);
   BothBounds bounds;
   for (std::size_t at = 0; at < parts.nodes.size(); at += apart) {
@@ -120,7 +120,7 @@ bool boxes_serve_better(const Parts& parts, const TriangleMesh& mesh, const Filt
   }
   for (const BoundingBox& one : bounds.boxes)
     in_boxes += 8 * (one.half.cast<double>().array() + margin).prod();
-  return in_boxes <= most_volume * in_cylinders;
+  return in_boxes <= max_volume * in_cylinders;
 }
 
 void bound_by_boxes(Parts& parts, const FilterFrame& frame, unsigned threads) {

@@ -110,7 +110,7 @@ float volume_within(const BoundingCylinder& bound, float margin) noexcept {
 }
 
 /// A surface that covers less of its bound's disc than this part is looked at more closely.
-constexpr double least_cover = 0.3;
+constexpr double min_cover = 0.3;
 /// From how far off bounds are compared, in parts of the first one's size.
 constexpr float comparing_margin = 0.05F;
 /// With more points than this a closer look takes too long.
@@ -123,7 +123,7 @@ BoundingCylinder bound_points(const PointList& points, const Facing& facing) noe
   BoundingCylinder best = bound_along(direction_of(facing.sum), center, points);
   const double disc = 3.14 * static_cast<double>(best.radius) * static_cast<double>(best.radius);
   // Only the side that faces along the axis covers the disc: a closed plate has two, which cancel.
-  if (facing.sum.norm() >= 2 * least_cover * disc || points.size() > max_compared) return best;
+  if (facing.sum.norm() >= 2 * min_cover * disc || points.size() > max_compared) return best;
   const float margin = comparing_margin * (best.radius + best.half);
   const Eigen::Vector3f end = farthest_from(center, points).point;
   const Eigen::Vector3f other_end = farthest_from(end, points).point;

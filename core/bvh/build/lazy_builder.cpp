@@ -17,19 +17,19 @@
 namespace touchmark::bvh {
 namespace {
 
-constexpr std::uint32_t most_of_part = UnbuiltParts::part_size, least_of_part = 64, least_parts = 8;
-static_assert(most_of_part <= TriangleSplitter::Workspace::capacity);
+constexpr std::uint32_t max_of_part = UnbuiltParts::part_size, min_of_part = 64, min_parts = 8;
+static_assert(max_of_part <= TriangleSplitter::Workspace::capacity);
 
 /// Returns the most triangles of a part: of a small mesh a query is to build a small part.
 constexpr std::uint32_t part_size_for(std::size_t triangles) noexcept {
   constexpr std::size_t parts = 16;
-  return static_cast<std::uint32_t>(std::clamp<std::size_t>(triangles / parts, least_of_part, most_of_part));
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(triangles / parts, min_of_part, max_of_part));
 }
 
 /// Returns the most nodes over so many blocks. Of n nodes, all but the root with two blocks at least, those
 /// with fewer than eight children have blocks alone, and each of the others has eight: n (1 + 6/8) is at most
 /// the number of blocks.
-constexpr std::uint32_t most_nodes(std::uint32_t triangles) noexcept {
+constexpr std::uint32_t max_nodes(std::uint32_t triangles) noexcept {
   const std::uint32_t blocks = (triangles + width - 1) / width;
   return 1 + blocks * 4 / 7;
 }
@@ -108,7 +108,7 @@ class TopBuilder {
     unbuilt.parts.reserve(ranges_.size());
     for (const TriangleRange& range : ranges_) {
       unbuilt.parts.push_back({range.begin, range.end, node});
-      node += most_nodes(range.size());
+      node += max_nodes(range.size());
     }
     tree_.nodes.resize(node);
     tree_.blocks.resize((mesh_.size() + width - 1) / width);
@@ -172,7 +172,7 @@ class PartBuilder {
 
 std::optional<Parts> build_top(const TriangleMesh& mesh, const FilterFrame& frame, unsigned threads) {
   // Fewer are built as quickly.
-  if (mesh.size() < least_parts * least_of_part) return std::nullopt;
+  if (mesh.size() < min_parts * min_of_part) return std::nullopt;
   return TopBuilder(mesh, frame, threads).build();
 }
 

@@ -20,14 +20,14 @@ constexpr std::size_t cells_a_piece = 64;
 CellTree::Leaf CellTree::nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle,
                                     std::uint32_t hint, std::uint64_t budget, Work& work) const noexcept {
   const Vec3 center = store.frame.from_frame(middle);
-  RoughSearch search(store, center, least_part, std::numeric_limits<double>::infinity());
+  RoughSearch search(store, center, min_part, std::numeric_limits<double>::infinity());
   search.consider(hint);
   const bool found = search.consider_tree(tree, budget);
   const RoughNearest& nearest = search.nearest();
   work.triangles += nearest.triangles;
   work.boxes += nearest.boxes;
   if (!found) return {nearest.slot, 0};
-  const double distance = store.frame.scale() * std::sqrt(double{least_part} * nearest.squared);
+  const double distance = store.frame.scale() * std::sqrt(double{min_part} * nearest.squared);
   return {nearest.slot, std::max(rounded_down(distance - middle_error_), 0.0F)};
 }
 

@@ -58,7 +58,7 @@ class CellTree {
   /// The mesh is no farther from the middle of a cell of this distance, where the search for it came to its
   /// end.
   double upper_bound(double distance) const noexcept {
-    return most_times * ((distance + 2 * rounded_down_to) * (1 + 2 * rounded_down_by) + 2 * middle_error_);
+    return max_times * ((distance + 2 * rounded_down_to) * (1 + 2 * rounded_down_by) + 2 * middle_error_);
   }
   /// In the frame: how far a cell's middle may be from where it is looked at in the mesh's own coordinates,
   /// in which it is rounded.
@@ -133,8 +133,8 @@ class CellTree {
   /// Cells name a triangle whose squared distance times this is at most that of the nearest: to find it takes
   /// half of the work, and it serves as well to start from. The distance that they keep is the root of this
   /// part of the square.
-  static constexpr float least_part = 0.98F;
-  static constexpr double most_times = 1.0102;  ///< at least the root of its inverse
+  static constexpr float min_part = 0.98F;
+  static constexpr double max_times = 1.0102;  ///< at least the root of its inverse
 
   static float rounded_down(double distance) noexcept {
     return static_cast<float>(distance * (1 - rounded_down_by) - rounded_down_to);

@@ -47,8 +47,8 @@ SampleLattice SampleLattice::halved() const noexcept {
 
 DistanceField::DistanceField(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::size_t triangles) {
   // As many as pay: 64 kilobytes stay in the second cache. A small mesh can have more for each triangle.
-  constexpr std::size_t fewest = 8, most_of_small = std::size_t{1} << 10, most = std::size_t{1} << 13;
-  const std::size_t samples = std::max(std::min(triangles / 4, most_of_small), triangles / 8);
+  constexpr std::size_t fewest = 8, max_of_small = std::size_t{1} << 10, most = std::size_t{1} << 13;
+  const std::size_t samples = std::max(std::min(triangles / 4, max_of_small), triangles / 8);
   coarse_ = SampleLattice(min, max, static_cast<std::uint32_t>(std::clamp(samples, fewest, most)));
   fine_ = coarse_.halved();
   constexpr float steps_an_edge = 8;

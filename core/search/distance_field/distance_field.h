@@ -64,10 +64,10 @@ class DistanceField {
   /// which is at most the second, each bound within 2^-23. Where it gives up, by a negative one, so does the
   /// rest of the part: nothing is known there. Positions follow one another closely. Several threads, each
   /// with a function of its own, find the same as one. Upper bounds are known where samples know triangles
-  /// (KnowsTriangles). Where more than `most_near` of the cubes have the mesh near, lower bounds reject
+  /// (KnowsTriangles). Where more than `max_near` of the cubes have the mesh near, lower bounds reject
   /// nothing, and none are kept. These two are in distance_field_filling.h.
   template <class Sampler>
-  void fill(const Sampler& sampler, unsigned threads, double most_near = 0.95);
+  void fill(const Sampler& sampler, unsigned threads, double max_near = 0.95);
   /// Leaves all of that to sample_near.
   void fill_lazily();
   bool is_lazy() const noexcept { return !unsampled_.empty(); }
@@ -193,10 +193,10 @@ inline float DistanceField::lower_bound(const FilterPoint& p) const noexcept {
 }
 
 inline bool DistanceField::may_be_tighter(const FilterPoint& p) const noexcept {
-  constexpr float least_in_edges = 0.5F;
+  constexpr float min_in_edges = 0.5F;
   if (fine_steps_.empty()) return false;
   const float steps = static_cast<float>(fine_steps_[fine_.index(fine_.cube_of(lanes_of(p)))].load());
-  return steps * step_ >= least_in_edges * fine_.edge();
+  return steps * step_ >= min_in_edges * fine_.edge();
 }
 
 // The numbers of a packed vector are rounded, by 0.87 steps in all. A step has room for them and for what

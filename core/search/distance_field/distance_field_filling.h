@@ -240,7 +240,7 @@ double DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_want
   if (coarse_.size() == 0) return 0;
   constexpr std::size_t cubes_a_part = 512;
   // Next to nothing is rejected where the mesh fills its box, with samples of the eighths or without.
-  constexpr double most_near_for_eighths = 0.85;
+  constexpr double max_near_for_eighths = 0.85;
   CoarseSamples samples(coarse_.size());
   const auto fill = [&](FillingPass pass, std::uint32_t first_y, std::uint32_t step_y, std::uint32_t first_z,
                         std::uint32_t step_z) {
@@ -263,7 +263,7 @@ double DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_want
   fill(FillingPass::between_y, 1, 2, 0, 2);
   fill(FillingPass::between_z, 0, 1, 1, 2);
   const double part_near = samples.part_near(*this);
-  if (part_near <= most_near_for_eighths) {
+  if (part_near <= max_near_for_eighths) {
     fill(FillingPass::outer_eighths, 0, 1, 0, 1);
     if (samples.inner_eighths_pay()) fill(FillingPass::inner_eighths, 0, 1, 0, 1);
   }
@@ -271,14 +271,14 @@ double DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_want
 }
 
 template <class Sampler>
-void DistanceField::fill(const Sampler& sampler, unsigned threads, double most_near) {
+void DistanceField::fill(const Sampler& sampler, unsigned threads, double max_near) {
   using DistanceAt = std::invoke_result_t<const Sampler&, double>;
   coarse_steps_ = SharedBytes(coarse_.size(), max_steps);
   to_mesh_.assign(KnowsTriangles<DistanceAt> ? coarse_.size() : 0, no_vector);
   fine_steps_ = SharedBytes(fine_.size(), 0);
   const double part_near = fill_cubes(
       sampler, [](std::uint32_t) { return true; }, threads);
-  if (part_near > most_near) fine_steps_ = SharedBytes();
+  if (part_near > max_near) fine_steps_ = SharedBytes();
 }
 
 /// Bounds from below and from above stay true where all that moved was and is farther than the mesh was: of

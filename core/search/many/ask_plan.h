@@ -39,8 +39,8 @@ class AskPlan {
   /// Returns how many consecutive points share a session where they do: enough to make up for the first of
   /// them, which knows nothing, and so many that there are few sessions.
   static std::size_t stretch_length(std::size_t points) noexcept {
-    constexpr std::size_t least = 256, most_stretches = 256;
-    return std::max(least, (points + most_stretches - 1) / most_stretches);
+    constexpr std::size_t least = 256, max_stretches = 256;
+    return std::max(least, (points + max_stretches - 1) / max_stretches);
   }
 
  private:

@@ -42,7 +42,7 @@ struct SweepVisitor {
 
 /// A ball about the middle of a longer path meets more than the path does: more in its length, and in the
 /// radius about as much as their product.
-constexpr double longest_in_leaf_radii = 0.5, largest_product_in_leaf_radii = 0.25;
+constexpr double max_in_leaf_radii = 0.5, max_product_in_leaf_radii = 0.25;
 /// More work than this about the middle shows that leaves are long and near to one another, so that their
 /// radius misleads: the path is looked along instead.
 constexpr std::uint64_t middle_budget = 1024;
@@ -157,8 +157,8 @@ std::optional<Impact> first_hit(const Surface& surface, const Sweep& sweep, Poin
   SweepCandidates candidates(bvh, sweep.radius > bvh.mean_leaf_radius(),
                              memory.is_near() ? memory.slot : nowhere, first);
   const bool is_short =
-      length <= longest_in_leaf_radii * bvh.mean_leaf_radius() &&
-      length * reach <= largest_product_in_leaf_radii * bvh.mean_leaf_radius() * bvh.mean_leaf_radius();
+      length <= max_in_leaf_radii * bvh.mean_leaf_radius() &&
+      length * reach <= max_product_in_leaf_radii * bvh.mean_leaf_radius() * bvh.mean_leaf_radius();
   const bool done = (is_short && search_middle(bvh, sweep, length, reach, std::min(budget, middle_budget),
                                                candidates, memory, work)) ||
                     search_path(bvh, sweep, length, reach, remaining(max_work(bvh), work.total() - before),

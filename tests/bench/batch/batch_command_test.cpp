@@ -33,8 +33,8 @@ std::vector<Row> rows_of(const std::string& path) {
 
 std::vector<std::string> ids_in(const Json& manifest) {
   std::vector<std::string> ids;
-  for (const Json& scene : manifest.at("scenes")) {
-    for (const Json& job : scene.at("jobs")) ids.push_back(job.at("id"));
+  for (const Json& planned : manifest.at("scenes")) {
+    for (const Json& job : planned.at("jobs")) ids.push_back(job.at("id"));
   }
   return ids;
 }
@@ -125,17 +125,17 @@ TEST_F(Sweep, RunsEachJobOnceOverItsShardsAndAllRivalsOfASceneTogether) {
   const Outcome second = run("2/2", "b");
   ASSERT_EQ(second.status, 0) << second.err;
   for (const char* shard : {"a", "b"}) {
-    std::map<std::string, std::set<std::string>> runs_of_scene;
+    std::map<std::string, std::set<std::string>> runs_of_mesh;
     for (const auto& entry : fs::directory_iterator(folder_.file(shard))) {
       const Json job = Json::parse(content_of(entry.path()));
       EXPECT_EQ(entry.path().stem(), job["id"].get<std::string>());
       EXPECT_EQ(job["row"]["run_id"], job["run"]["run_id"]);
       const Json& row = job["row"];
-      runs_of_scene[row["mesh"].get<std::string>() + row["trajectory"].get<std::string>()].insert(
+      runs_of_mesh[row["mesh"].get<std::string>() + row["trajectory"].get<std::string>()].insert(
           row["run_id"].get<std::string>() + row["detector"].get<std::string>());
     }
-    EXPECT_EQ(runs_of_scene.size(), 2U);
-    for (const auto& [scene, rivals] : runs_of_scene) EXPECT_EQ(rivals.size(), 2U) << scene;
+    EXPECT_EQ(runs_of_mesh.size(), 2U);
+    for (const auto& [planned, rivals] : runs_of_mesh) EXPECT_EQ(rivals.size(), 2U) << planned;
   }
   const Outcome done = merge({"a", "b"}, {"--manifest", folder_.file("sweep.json")});
   ASSERT_EQ(done.status, 0) << done.err;

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/scenes/mesh_writer.h"
+#include "bench/meshes/mesh_writer.h"
 #include "bench/support/failures.h"
 #include "core/mesh_io/mesh_io.h"
 #include "core/subdivision/subdivision.h"
@@ -35,7 +35,7 @@ TEST(MeshWriter, KeepsEveryBitInEveryFormat) {
   const TriangleMesh mesh = awkward();
   for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl", "A.PLY"}) {
     const std::string path = folder.file(name);
-    scenes::write_mesh(mesh, path);
+    meshes::write_mesh(mesh, path);
     const TriangleMesh read = load_mesh(path);
     ASSERT_EQ(read.size(), mesh.size()) << name;
     for (std::size_t t = 0; t < mesh.size(); ++t) {
@@ -48,13 +48,13 @@ TEST(MeshWriter, KeepsEveryBitInEveryFormat) {
 
 TEST(MeshWriter, RefusesAnEndingItDoesNotKnow) {
   const TemporaryFolder folder;
-  EXPECT_THROW(scenes::write_mesh(awkward(), folder.file("mesh.fbx")), std::invalid_argument);
-  EXPECT_THROW(scenes::write_mesh(awkward(), folder.file("ply")), std::invalid_argument);
+  EXPECT_THROW(meshes::write_mesh(awkward(), folder.file("mesh.fbx")), std::invalid_argument);
+  EXPECT_THROW(meshes::write_mesh(awkward(), folder.file("ply")), std::invalid_argument);
   EXPECT_EQ(folder.entries(), 0u);
 }
 
 TEST(MeshWriter, LeavesNothingWhereItCannotWrite) {
-  EXPECT_THROW(scenes::write_mesh(awkward(), "/no-such-folder/mesh.ply"), support::ResourceError);
+  EXPECT_THROW(meshes::write_mesh(awkward(), "/no-such-folder/mesh.ply"), support::ResourceError);
 }
 
 std::vector<std::string> command(const std::string& mesh, const std::string& method,
@@ -65,7 +65,7 @@ std::vector<std::string> command(const std::string& mesh, const std::string& met
 TEST(MeshSubdivide, WritesTheMeshThatTheLibraryMakes) {
   const TemporaryFolder folder;
   const std::string coarse_file = folder.file("coarse.ply");
-  scenes::write_mesh(TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+  meshes::write_mesh(TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                                   {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}),
                      coarse_file);
   const TriangleMesh coarse = load_mesh(coarse_file);

@@ -61,14 +61,14 @@ TEST(Bench, LeavesOneRowAContestantAndTrajectoryAndARunJson) {
   for (std::size_t i = 1; i < csv.size(); ++i) {
     const std::vector<std::string> row = split_csv(csv[i]);
     ASSERT_EQ(row.size(), header.size());
-    constexpr int of_stored_scene = 3;  // these two store what they are given
-    constexpr int of_prepare = 3;       // and prepare nothing
-    constexpr int of_few_steps = 1;     // no 99.9 %
-    constexpr int of_cold = 8;          // without --cold
-    constexpr int of_lines = 2;         // without --cache-lines
-    constexpr int of_merge = 1;         // not from touchmark merge
+    constexpr int of_stored_mesh = 3;  // these two store what they are given
+    constexpr int of_prepare = 3;      // and prepare nothing
+    constexpr int of_few_steps = 1;    // no 99.9 %
+    constexpr int of_cold = 8;         // without --cold
+    constexpr int of_lines = 2;        // without --cache-lines
+    constexpr int of_merge = 1;        // not from touchmark merge
     EXPECT_EQ(std::count(row.begin(), row.end(), ""),
-              of_stored_scene + of_prepare + of_few_steps + of_cold + of_lines + of_merge + i % 2)
+              of_stored_mesh + of_prepare + of_few_steps + of_cold + of_lines + of_merge + i % 2)
         << "besides, only brute-force's options are empty";
     EXPECT_EQ(row[0], "1");
     EXPECT_EQ(row[3], i % 2 == 1 ? "" : "lookup=scan,shape=sphere");

@@ -6,13 +6,13 @@
 
 #include "bench/contestants/contestant.h"
 #include "bench/contestants/roster.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 
 namespace touchmark::bench::contestants {
 namespace {
 
 TEST(ClaimedGuarantee, IsThatOfTheBuiltContestant) {
-  const TriangleMesh mesh = scenes::load_scene("icosphere:1");
+  const TriangleMesh mesh = meshes::load_mesh("icosphere:1");
   std::vector<ContestantSpec> specs = roster().thorough_set();
   for (const ContestantSpec& spec : roster().forms(&Forms::frontier)) specs.push_back(spec);
   std::size_t compared = 0;

@@ -36,8 +36,8 @@ TEST(Latency, AStepThatTakesThePeriodItselfIsInTime) {
 
 TEST(Latency, ARunOfMissesEndsWhereTheWindowDoes) {
   const std::vector<double> ns{2e6, 1, 2e6, 2e6, 2e6, 2e6, 2e6, 1};
-  EXPECT_EQ(summarize_latency(ns, {{0, 8}}).deadlines[0].longest_run, 5U);
-  EXPECT_EQ(summarize_latency(ns, {{0, 5}, {90, 93}}).deadlines[0].longest_run, 3U);
+  EXPECT_EQ(summarize_latency(ns, {{0, 8}}).deadlines[0].max_run, 5U);
+  EXPECT_EQ(summarize_latency(ns, {{0, 5}, {90, 93}}).deadlines[0].max_run, 3U);
   EXPECT_EQ(summarize_latency(ns, {{0, 5}, {90, 93}}).deadlines[0].misses, 6U);
 }
 

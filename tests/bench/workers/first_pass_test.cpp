@@ -10,7 +10,7 @@
 
 #include "bench/measurement/comparison.h"
 #include "bench/measurement/measurement.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "tests/bench/workers/hostile_roster.h"
 
 namespace touchmark::bench::workers {
@@ -20,7 +20,7 @@ namespace {
 workload::Workload workload() {
   workload::Selection selection;
   selection.radius = {1, true};
-  return workload::make_workload("torus:20x10", scenes::load_scene("torus:20x10"), selection,
+  return workload::make_workload("torus:20x10", meshes::load_mesh("torus:20x10"), selection,
                                  {"slide", "jump", "slide"}, 400);
 }
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/contestants/contestant_of.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 
 namespace touchmark::bench::workers {
 namespace {
@@ -29,7 +29,7 @@ class Noting {
     notes_->push_back(asked);
     return std::nullopt;
   }
-  void stand_at(const bodies::ScheduleView*, std::size_t step) noexcept {
+  void stand_at(const scenes::ScheduleView*, std::size_t step) noexcept {
     notes_->push_back(static_cast<int>(step));
   }
   std::size_t bytes() const noexcept { return 0; }
@@ -45,8 +45,8 @@ TEST(Throughput, ASampleOfOneStepPlacesWhatMovedBeforeIt) {
   std::vector<int> notes;
   contestants::ContestantOf<Noting> contestant{Noting(notes)};
   const std::vector<workload::Step> steps(12);
-  const bodies::Schedule schedule;
-  const bodies::ScheduleView view = schedule.view();
+  const scenes::Schedule schedule;
+  const scenes::ScheduleView view = schedule.view();
   const workload::QueryTrace trace{workload::Query::nearest, steps, &view};
   sample_throughput(contestant, trace, {{0, 1}, {5, 6}, {9, 11}}, 1, 1);
   constexpr int asked = Noting::asked;

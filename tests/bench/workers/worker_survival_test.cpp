@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/measurement/comparison.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "tests/bench/workers/hostile_roster.h"
 
 namespace touchmark::bench::workers {
@@ -17,8 +17,8 @@ constexpr std::size_t steps = 40;
 workload::Workload small_workload() {
   workload::Selection selection;
   selection.radius = {1, true};
-  return workload::make_workload("icosphere:1", scenes::load_scene("icosphere:1"), selection,
-                                 {"slide", "tap"}, steps);
+  return workload::make_workload("icosphere:1", meshes::load_mesh("icosphere:1"), selection, {"slide", "tap"},
+                                 steps);
 }
 
 /// The rows of each trajectory in turn.

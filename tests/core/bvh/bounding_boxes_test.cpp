@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "core/bvh/build/builder.h"
 
 namespace touchmark::bvh {
@@ -18,8 +18,8 @@ struct Tree {
   FilterFrame frame;
   Parts parts;
 
-  explicit Tree(const std::string& scene)
-      : mesh(bench::scenes::load_scene(scene)), frame(FilterFrame::around(mesh.bounds())) {
+  explicit Tree(const std::string& name)
+      : mesh(bench::meshes::load_mesh(name)), frame(FilterFrame::around(mesh.bounds())) {
     parts = build_tree(mesh, nullptr, frame, 1);
   }
 };
@@ -52,12 +52,12 @@ std::size_t corners_outside(const Tree& tree, std::uint32_t at) {
 }
 
 TEST(BoundingBoxes, HoldEveryTriangleBelowThem) {
-  for (const char* scene : {"fins:2000", "boxes:2000@offset=1e6", "truss:2000@scale=1e-6", "thin-plate"}) {
-    const Tree tree(scene);
-    ASSERT_TRUE(tree.parts.boxes) << scene;
+  for (const char* name : {"fins:2000", "boxes:2000@offset=1e6", "truss:2000@scale=1e-6", "thin-plate"}) {
+    const Tree tree(name);
+    ASSERT_TRUE(tree.parts.boxes) << name;
     std::size_t outside = 0;
     for (std::uint32_t at = 0; at < tree.parts.nodes.size(); ++at) outside += corners_outside(tree, at);
-    EXPECT_EQ(outside, 0U) << scene;
+    EXPECT_EQ(outside, 0U) << name;
   }
 }
 

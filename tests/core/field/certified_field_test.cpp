@@ -50,19 +50,19 @@ TriangleMesh plate_with_needle() {
   return {std::move(vertices), {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}}};
 }
 
-std::vector<test::NamedMesh> scenes() {
-  std::vector<test::NamedMesh> scenes = test::test_meshes();
-  scenes.push_back({"plate with needle", plate_with_needle(), 1.2});
+std::vector<test::NamedMesh> all_meshes() {
+  std::vector<test::NamedMesh> all_meshes = test::test_meshes();
+  all_meshes.push_back({"plate with needle", plate_with_needle(), 1.2});
   const Vec3 far = Vec3::Constant(0x1p44);
-  scenes.push_back({"very far off", test::soup(100, 0.3, 2).transformed(1, far), 1.3, far});
-  return scenes;
+  all_meshes.push_back({"very far off", test::soup(100, 0.3, 2).transformed(1, far), 1.3, far});
+  return all_meshes;
 }
 
 /// On the surface, about it, and as far as the band.
-std::vector<Vec3> points_near(const test::NamedMesh& scene, double band, test::Random& random) {
+std::vector<Vec3> points_near(const test::NamedMesh& named, double band, test::Random& random) {
   std::vector<Vec3> points;
   for (int i = 0; i < 60; ++i) {
-    const Vec3 near = test::random_point(scene, random);
+    const Vec3 near = test::random_point(named, random);
     points.push_back(near);
     points.push_back(near + random.point(band));
     points.push_back(near + random.point(0.05 * band));
@@ -72,30 +72,30 @@ std::vector<Vec3> points_near(const test::NamedMesh& scene, double band, test::R
 
 TEST(CertifiedField, IsNeverWrongByMoreThanItsError) {
   test::Random random(1);
-  for (const test::NamedMesh& scene : scenes()) {
-    const double diagonal = scene.mesh.diagonal();
+  for (const test::NamedMesh& named : all_meshes()) {
+    const double diagonal = named.mesh.diagonal();
     const double error = 0.03 * diagonal, band = 0.1 * diagonal;
     if (!(diagonal > 1e-100 && diagonal < 1e100)) continue;  // there brute force loses digits, too
-    const auto field = Field::build(scene.mesh, with(error, band));
-    EXPECT_LE(field.accuracy().absolute, error) << scene.name;
-    const auto truth = BruteForce::build(scene.mesh);
+    const auto field = Field::build(named.mesh, with(error, band));
+    EXPECT_LE(field.accuracy().absolute, error) << named.name;
+    const auto truth = BruteForce::build(named.mesh);
     Field::Session session;
     BruteForce::Session other;
-    for (const Vec3& point : points_near(scene, band, random)) {
+    for (const Vec3& point : points_near(named, band, random)) {
       const double reach = 0.99 * band, rounding = 1e-12 * (diagonal + point.norm());
       const auto right = truth.nearest({point, 0}, infinity, other);
       const auto answer = field.nearest({point, 0}, reach, session);
       if (answer) {
-        EXPECT_GE(answer->distance, right->distance - field.error() - rounding) << scene.name;
-        EXPECT_LE(answer->distance, right->distance + field.error() + rounding) << scene.name;
-        EXPECT_NEAR((point - answer->point).norm(), answer->distance, rounding) << scene.name;
+        EXPECT_GE(answer->distance, right->distance - field.error() - rounding) << named.name;
+        EXPECT_LE(answer->distance, right->distance + field.error() + rounding) << named.name;
+        EXPECT_NEAR((point - answer->point).norm(), answer->distance, rounding) << named.name;
       } else {
-        EXPECT_GT(right->distance + field.error() + rounding, reach) << scene.name;
+        EXPECT_GT(right->distance + field.error() + rounding, reach) << named.name;
       }
       for (const double sign : {-1.0, 1.0}) {
         const double radius = right->distance + sign * (field.error() + rounding);
         if (radius < 0 || radius >= band) continue;
-        EXPECT_EQ(field.touches({point, radius}, session), sign > 0) << scene.name;
+        EXPECT_EQ(field.touches({point, radius}, session), sign > 0) << named.name;
       }
     }
   }
@@ -103,20 +103,20 @@ TEST(CertifiedField, IsNeverWrongByMoreThanItsError) {
 
 /// What it reports is near the triangle that it names, which is as near to the probe as it says.
 TEST(CertifiedField, NamesATriangleThatItsPointIsNear) {
-  for (const test::NamedMesh& scene : scenes()) {
-    const double diagonal = scene.mesh.diagonal();
+  for (const test::NamedMesh& given : all_meshes()) {
+    const double diagonal = given.mesh.diagonal();
     if (!(diagonal > 1e-100 && diagonal < 1e100)) continue;
-    const auto field = Field::build(scene.mesh, with(0.02 * diagonal, 0.1 * diagonal));
+    const auto field = Field::build(given.mesh, with(0.02 * diagonal, 0.1 * diagonal));
     Field::Session session;
     test::Random random(2);
-    for (const Vec3& point : points_near(scene, 0.1 * diagonal, random)) {
+    for (const Vec3& point : points_near(given, 0.1 * diagonal, random)) {
       const auto answer = field.nearest({point, 0}, 0.09 * diagonal, session);
       if (!answer) continue;
       const double allowed = field.error() + 1e-12 * (diagonal + point.norm());
-      const PreparedTriangle named = prepare(scene.mesh, answer->triangle);
-      EXPECT_LE(std::sqrt(squared_distance(named, answer->point)), allowed) << scene.name;
-      EXPECT_NEAR(std::sqrt(squared_distance(named, point)), answer->distance, allowed) << scene.name;
-      EXPECT_NEAR(answer->normal.norm(), 1, 1e-12) << scene.name;
+      const PreparedTriangle named = prepare(given.mesh, answer->triangle);
+      EXPECT_LE(std::sqrt(squared_distance(named, answer->point)), allowed) << given.name;
+      EXPECT_NEAR(std::sqrt(squared_distance(named, point)), answer->distance, allowed) << given.name;
+      EXPECT_NEAR(answer->normal.norm(), 1, 1e-12) << given.name;
     }
   }
 }

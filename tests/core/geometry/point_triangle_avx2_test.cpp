@@ -20,14 +20,14 @@ bool same_bits(const Offset& a, const Offset& b) {
 
 TEST(PointTriangleAvx2, GivesTheBitsOfTheScalarKernelOnEveryMesh) {
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no AVX2";
-  for (const auto& scene : test::test_meshes()) {
-    const std::vector<PreparedTriangle> triangles = prepare(scene.mesh);
+  for (const auto& named : test::test_meshes()) {
+    const std::vector<PreparedTriangle> triangles = prepare(named.mesh);
     test::Random random(41);
     for (int step = 0; step < 20000; ++step) {
-      const Vec3 point = test::random_point(scene, random);
+      const Vec3 point = test::random_point(named, random);
       const PreparedTriangle& triangle = triangles[random.below(triangles.size())];
       ASSERT_TRUE(same_bits(avx2::offset_from(triangle, point), offset_from(triangle, point)))
-          << scene.name << ", step " << step;
+          << named.name << ", step " << step;
     }
   }
 }

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "bench/scenes/generated_scenes.h"
+#include "bench/meshes/generated_meshes.h"
 #include "bench/support/random.h"
 #include "core/triangle_mesh.h"
 
@@ -84,7 +84,7 @@ inline TriangleMesh crater() {
 }
 
 inline TriangleMesh slab(double thickness) {
-  const TriangleMesh cube = bench::scenes::cube();
+  const TriangleMesh cube = bench::meshes::cube();
   std::vector<Vec3> vertices;
   for (const Vec3& v : cube.vertices()) vertices.emplace_back(v.x(), v.y(), thickness * v.z());
   return {std::move(vertices), {cube.triangles().begin(), cube.triangles().end()}};
@@ -99,7 +99,7 @@ inline TriangleMesh with_flat_triangle() {
 
 /// Boundaries of solids: 1 wound round inside, 0 outside.
 inline std::vector<Named> solids() {
-  using namespace bench::scenes;
+  using namespace bench::meshes;
   const TriangleMesh ball = icosphere(1);
   std::vector<Named> all;
   all.push_back({"icosphere", icosphere(2)});
@@ -123,7 +123,7 @@ inline std::vector<Named> solids() {
 
 /// As many triangles each way on every edge, but no boundary of a solid: overlapping, doubled, touching.
 inline std::vector<Named> tangles() {
-  using namespace bench::scenes;
+  using namespace bench::meshes;
   const TriangleMesh ball = icosphere(1);
   std::vector<Named> all;
   all.push_back({"overlapping balls", together({ball, moved(ball, 1, {0.8, 0.1, 0.2})})});

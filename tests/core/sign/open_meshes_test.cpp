@@ -78,8 +78,8 @@ sign::Winding winding_of(const TriangleMesh& mesh) {
 TEST(OpenMeshes, ARayAndItsCurtainsGiveTheWindingNumberOfAllTriangles) {
   bench::support::Random random(4);
   for (const TriangleMesh& mesh :
-       {bench::scenes::icosphere(2), cut_off(bench::scenes::icosphere(2), 0.1),
-        bench::scenes::single_triangle(), bench::scenes::soup(50), cut_off(bench::scenes::torus(12, 8), 0)}) {
+       {bench::meshes::icosphere(2), cut_off(bench::meshes::icosphere(2), 0.1),
+        bench::meshes::single_triangle(), bench::meshes::soup(50), cut_off(bench::meshes::torus(12, 8), 0)}) {
     const sign::Winding winding = winding_of(mesh);
     for (int i = 0; i < 500; ++i) {
       const Vec3 point = mesh.bounds().center() + random.unit() * mesh.diagonal() * random.direction();
@@ -92,7 +92,7 @@ TEST(OpenMeshes, ARayAndItsCurtainsGiveTheWindingNumberOfAllTriangles) {
 }
 
 TEST(OpenMeshes, ABallWithASmallHoleIsDecidedAwayFromTheHoleAndNeverWrongly) {
-  const TriangleMesh ball = bench::scenes::icosphere(3), open = cut_off(ball, -0.94);
+  const TriangleMesh ball = bench::meshes::icosphere(3), open = cut_off(ball, -0.94);
   const SignedBruteForce whole = SignedBruteForce::build(ball, {}), holed = SignedBruteForce::build(open, {});
   ASSERT_EQ(holed.sides().surface().method, Method::winding_number);
   bench::support::Random random(5);
@@ -109,7 +109,7 @@ TEST(OpenMeshes, ABallWithASmallHoleIsDecidedAwayFromTheHoleAndNeverWrongly) {
 }
 
 TEST(OpenMeshes, NothingIsDecidedInTheMouthOfAHemisphere) {
-  const SignedBruteForce bowl = SignedBruteForce::build(cut_off(bench::scenes::icosphere(3), 0.05), {});
+  const SignedBruteForce bowl = SignedBruteForce::build(cut_off(bench::meshes::icosphere(3), 0.05), {});
   bench::support::Random random(6);
   for (int i = 0; i < 500; ++i) {
     const double radius = 0.95 * std::sqrt(random.unit());
@@ -130,7 +130,7 @@ TEST(OpenMeshes, AMoebiusStripIsUndecidedEverywhereButOnItself) {
 }
 
 TEST(OpenMeshes, APatchTurnedOverLeavesAllUndecided) {
-  const TriangleMesh ball = bench::scenes::icosphere(2);
+  const TriangleMesh ball = bench::meshes::icosphere(2);
   std::vector<TriangleMesh::Corners> triangles(ball.triangles().begin(), ball.triangles().end());
   for (std::size_t t = 0; t < triangles.size() / 2; ++t) std::swap(triangles[t][1], triangles[t][2]);
   const SignedBruteForce detector =
@@ -142,7 +142,7 @@ TEST(OpenMeshes, APatchTurnedOverLeavesAllUndecided) {
 }
 
 TEST(OpenMeshes, NothingIsInsideASoup) {
-  const TriangleMesh soup = bench::scenes::soup(200);
+  const TriangleMesh soup = bench::meshes::soup(200);
   const SignedBruteForce detector = SignedBruteForce::build(soup, {});
   bench::support::Random random(9);
   for (const Vec3& point : telling_points(soup, random, 60))
@@ -150,7 +150,7 @@ TEST(OpenMeshes, NothingIsInsideASoup) {
 }
 
 TEST(OpenMeshes, NothingIsDecidedJustBesideASheet) {
-  const SignedBruteForce sheet = SignedBruteForce::build(bench::scenes::single_triangle(), {});
+  const SignedBruteForce sheet = SignedBruteForce::build(bench::meshes::single_triangle(), {});
   for (const double height : {1e-12, 1e-6, 0.1}) {
     EXPECT_EQ(side_at(sheet, {0, 0, height}), Side::undecided);
     EXPECT_EQ(side_at(sheet, {0, 0, -height}), Side::undecided);

@@ -75,7 +75,7 @@ TEST(SideFinder, AgreesWithTheExactWindingNumberFarFromTheOriginTinyAndHuge) {
 }
 
 TEST(SideFinder, BehindTheFacesIsInsideThoughTheMeshBeInsideOut) {
-  const SignedBruteForce room = SignedBruteForce::build(turned_over(bench::scenes::icosphere(2)), {});
+  const SignedBruteForce room = SignedBruteForce::build(turned_over(bench::meshes::icosphere(2)), {});
   EXPECT_TRUE(room.sides().surface().inside_out);
   bench::support::Random random(4);
   for (int i = 0; i < 200; ++i) {
@@ -112,7 +112,7 @@ TEST(SideFinder, AVolumeBelowRoundingHasItsSignAllTheSame) {
 }
 
 TEST(SideFinder, AMeshThatEnclosesAsMuchEitherWayIsNotInsideOut) {
-  const TriangleMesh cube = bench::scenes::cube();
+  const TriangleMesh cube = bench::meshes::cube();
   const TriangleMesh both = together({cube, turned_over(moved(cube, 1, {4, 0, 0}))});
   const TriangleMesh flat = together({leaf(0, false), leaf(0, true)});
   for (const TriangleMesh* mesh : {&both, &flat}) {
@@ -125,7 +125,7 @@ TEST(SideFinder, AMeshThatEnclosesAsMuchEitherWayIsNotInsideOut) {
 }
 
 TEST(SideFinder, AShellTurnedAgainstTheRestIsUndecidedWithinAndTheRestIsNotDisturbed) {
-  const TriangleMesh ball = bench::scenes::icosphere(1);
+  const TriangleMesh ball = bench::meshes::icosphere(1);
   const SignedBruteForce detector =
       SignedBruteForce::build(together({ball, turned_over(moved(ball, 0.5, {3, 0, 0}))}), {});
   EXPECT_FALSE(detector.sides().surface().inside_out);
@@ -136,7 +136,7 @@ TEST(SideFinder, AShellTurnedAgainstTheRestIsUndecidedWithinAndTheRestIsNotDistu
 }
 
 TEST(SideFinder, DecidesByPseudonormalsWhereNothingIsDifficult) {
-  const TriangleMesh mesh = bench::scenes::noisy_sphere(2000);
+  const TriangleMesh mesh = bench::meshes::noisy_sphere(2000);
   const SignedBruteForce detector = SignedBruteForce::build(mesh, {});
   EXPECT_EQ(detector.sides().surface().method, SideFinder::Method::pseudonormals);
   SignedBruteForce::Session session;
@@ -148,7 +148,7 @@ TEST(SideFinder, DecidesByPseudonormalsWhereNothingIsDifficult) {
 }
 
 TEST(SideFinder, PiecesOfAPolygonAreToldApart) {
-  const TriangleMesh cube = bench::scenes::cube();
+  const TriangleMesh cube = bench::meshes::cube();
   const TriangleMesh squares{{cube.vertices().begin(), cube.vertices().end()},
                              {cube.triangles().begin(), cube.triangles().end()},
                              {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 9, 9}};
@@ -160,7 +160,7 @@ TEST(SideFinder, PiecesOfAPolygonAreToldApart) {
 }
 
 TEST(SideFinder, MovingTheCentreByOneRoundingThroughAFaceChangesTheSide) {
-  const SignedBruteForce cube = SignedBruteForce::build(bench::scenes::cube(), {});
+  const SignedBruteForce cube = SignedBruteForce::build(bench::meshes::cube(), {});
   EXPECT_EQ(side_at(cube, {0.5, 0.1, 0.2}), Side::on_surface);
   EXPECT_EQ(side_at(cube, {std::nextafter(0.5, 1), 0.1, 0.2}), Side::outside);
   EXPECT_EQ(side_at(cube, {std::nextafter(0.5, 0), 0.1, 0.2}), Side::inside);
@@ -182,7 +182,7 @@ class Mistaken {
 };
 
 TEST(SideFinder, DoesNotTrustTheContactOfAnApproximateDetector) {
-  const TriangleMesh ball = bench::scenes::icosphere(2);
+  const TriangleMesh ball = bench::meshes::icosphere(2);
   const auto detector = Signed<Mistaken>::build(ball, {});
   const std::vector<bench::oracle::Triangle> triangles = triangles_of(ball);
   Signed<Mistaken>::Session session;
@@ -192,14 +192,14 @@ TEST(SideFinder, DoesNotTrustTheContactOfAnApproximateDetector) {
 }
 
 TEST(SideFinder, ASweepTellsTheSideItTouchesFrom) {
-  const SignedBruteForce cube = SignedBruteForce::build(bench::scenes::cube(), {});
+  const SignedBruteForce cube = SignedBruteForce::build(bench::meshes::cube(), {});
   SignedBruteForce::Session session;
   EXPECT_EQ(cube.first_hit({{2, 0.1, 0.2}, {-2, 0.1, 0.2}, 0.1}, session)->contact.side, Side::outside);
   EXPECT_EQ(cube.first_hit({{0.1, 0.1, 0.2}, {2, 0.1, 0.2}, 0.1}, session)->contact.side, Side::inside);
 }
 
 TEST(SideFinder, TheJudgeCatchesAWrongSideAndExcusesWhoDoesNotSay) {
-  const TriangleMesh cube = bench::scenes::cube();
+  const TriangleMesh cube = bench::meshes::cube();
   const bench::oracle::Oracle oracle(cube, 1);
   const std::array<Probe, 2> probes{{{{0.1, 0.2, 0.3}, 0}, {{0.7, 0.2, 0.3}, 0}}};
   const std::vector<bench::oracle::GroundTruth> truths = oracle.solve(std::span<const Probe>(probes));
@@ -226,7 +226,7 @@ TEST(SideFinder, TheJudgeCatchesAWrongSideAndExcusesWhoDoesNotSay) {
 
 TEST(SideFinder, WhoDoesNotAskIsNotTold) {
   BruteForce::Session session;
-  EXPECT_EQ(BruteForce::build(bench::scenes::cube()).nearest({{1, 0, 0}, 0}, infinity, session)->side,
+  EXPECT_EQ(BruteForce::build(bench::meshes::cube()).nearest({{1, 0, 0}, 0}, infinity, session)->side,
             Side::unasked);
 }
 

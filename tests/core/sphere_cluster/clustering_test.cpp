@@ -56,11 +56,11 @@ TEST(TriangleSpheres, AreCentredOnTheCentroidAndReachTheFarthestCorner) {
 }
 
 TEST(TriangleSpheres, HoldTheirTrianglesOnEveryMesh) {
-  for (const auto& scene : test::test_meshes()) {
-    const auto spheres = triangle_spheres(scene.mesh);
-    ASSERT_EQ(spheres.size(), scene.mesh.size());
+  for (const auto& named : test::test_meshes()) {
+    const auto spheres = triangle_spheres(named.mesh);
+    ASSERT_EQ(spheres.size(), named.mesh.size());
     for (std::size_t i = 0; i < spheres.size(); ++i)
-      ASSERT_TRUE(holds(spheres[i], scene.mesh, i)) << scene.name;
+      ASSERT_TRUE(holds(spheres[i], named.mesh, i)) << named.name;
   }
 }
 
@@ -85,17 +85,17 @@ TEST(Clustering, MergesTheTwoTrianglesOfASquareAtTheDistanceOfTheirCentroids) {
 }
 
 TEST(Clustering, PutsEveryTriangleInOneSphereThatHoldsItOnEveryMesh) {
-  for (const auto& scene : test::test_meshes()) {
+  for (const auto& named : test::test_meshes()) {
     for (const double part : {1e-300, 1e-3, 0.1, 0.7, 10.0}) {
       const VisitOrder order = part < 0.5 ? VisitOrder::breadth_first : VisitOrder::mesh;
-      const SphereClusters clusters = cluster_spheres(scene.mesh, part * scene.size, order);
+      const SphereClusters clusters = cluster_spheres(named.mesh, part * named.size, order);
       std::set<std::uint32_t> seen;
       for (std::size_t i = 0; i < clusters.size(); ++i)
         for (const std::uint32_t triangle : clusters.triangles_of(i)) {
-          EXPECT_TRUE(seen.insert(triangle).second) << scene.name;
-          ASSERT_TRUE(holds(clusters.spheres[i], scene.mesh, triangle)) << scene.name << " at " << part;
+          EXPECT_TRUE(seen.insert(triangle).second) << named.name;
+          ASSERT_TRUE(holds(clusters.spheres[i], named.mesh, triangle)) << named.name << " at " << part;
         }
-      EXPECT_EQ(seen.size(), scene.mesh.size()) << scene.name;
+      EXPECT_EQ(seen.size(), named.mesh.size()) << named.name;
     }
   }
 }

@@ -27,21 +27,21 @@ TEST_F(LazyDistances, AreSampledWithBoundedWorkInAQuery) {
   const SphereCluster detector = SphereCluster::build(mesh_, lazy);
   SphereCluster::Session session, session_of_whole;
   // The samples about one place are searched without a limit; none of them may see much of the mesh.
-  const std::uint64_t most_in_samples = mesh_.size() / 4;
-  ASSERT_LE(most_in_samples, 1024u);
+  const std::uint64_t max_in_samples = mesh_.size() / 4;
+  ASSERT_LE(max_in_samples, 1024u);
   // Each part of the hierarchy is built once, at a look at each of its triangles.
-  std::uint64_t most_to_build = mesh_.size();
+  std::uint64_t max_to_build = mesh_.size();
   for (int pass = 0; pass < 2; ++pass) {
     for (const test::Question& question : all_) {
       const std::uint64_t before = session.work.total(), before_of_whole = session_of_whole.work.total();
       detector.nearest({question.center, 0}, question.reach, session);
       whole_.nearest({question.center, 0}, question.reach, session_of_whole);
-      const std::uint64_t usual = session_of_whole.work.total() - before_of_whole + most_in_samples,
+      const std::uint64_t usual = session_of_whole.work.total() - before_of_whole + max_in_samples,
                           taken = session.work.total() - before;
-      EXPECT_LE(taken, usual + most_to_build);
-      if (taken > usual) most_to_build -= std::min(most_to_build, taken - usual);
+      EXPECT_LE(taken, usual + max_to_build);
+      if (taken > usual) max_to_build -= std::min(max_to_build, taken - usual);
     }
-    most_to_build = 0;
+    max_to_build = 0;
   }
 }
 

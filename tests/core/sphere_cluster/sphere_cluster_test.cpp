@@ -60,12 +60,12 @@ void expect_same(const std::optional<Impact>& a, const std::optional<Impact>& b)
   expect_same(a->contact, b->contact);
 }
 
-std::string label(const test::NamedMesh& scene, const PublishedSphereCluster::Options& options) {
-  return scene.name + ", scan, clustering " + std::to_string(options.clustering);
+std::string label(const test::NamedMesh& named, const PublishedSphereCluster::Options& options) {
+  return named.name + ", scan, clustering " + std::to_string(options.clustering);
 }
 
-std::string label(const test::NamedMesh& scene, const SphereCluster::Options& options) {
-  return scene.name + ", tree, clustering " + std::to_string(options.clustering) +
+std::string label(const test::NamedMesh& named, const SphereCluster::Options& options) {
+  return named.name + ", tree, clustering " + std::to_string(options.clustering) +
          (options.widest == Simd::portable ? ", portable" : ", avx2");
 }
 
@@ -95,17 +95,17 @@ TEST(SphereCluster, ContactIsClosed) {
 }
 
 TEST(SphereCluster, EqualsBruteForceBitForBitOnEveryMesh) {
-  for (const auto& scene : test::test_meshes()) {
-    const BruteForce oracle = BruteForce::build(scene.mesh);
-    for_each_exact_form(scene.size, [&]<class D>(const typename D::Options& options) {
-      SCOPED_TRACE(label(scene, options));
-      const D detector = D::build(scene.mesh, options);
+  for (const auto& named : test::test_meshes()) {
+    const BruteForce oracle = BruteForce::build(named.mesh);
+    for_each_exact_form(named.size, [&]<class D>(const typename D::Options& options) {
+      SCOPED_TRACE(label(named, options));
+      const D detector = D::build(named.mesh, options);
       typename D::Session used;
       BruteForce::Session oracle_session;
       test::Random random(17);
       for (int step = 0; step < 100; ++step) {
-        const Vec3 center = test::random_point(scene, random);
-        const double radius = scene.size * random.between(0, 0.1);
+        const Vec3 center = test::random_point(named, random);
+        const double radius = named.size * random.between(0, 0.1);
         const double exact = oracle.nearest({center, 0}, infinity, oracle_session)->distance;
         for (const double reach : {radius, exact, std::nextafter(exact, 0.0), 0.0, infinity}) {
           const auto expected = oracle.nearest({center, 0}, reach, oracle_session);
@@ -122,22 +122,22 @@ TEST(SphereCluster, EqualsBruteForceBitForBitOnEveryMesh) {
 }
 
 TEST(SphereCluster, EqualsBruteForceOnACoherentWay) {
-  for (const auto& scene : test::test_meshes()) {
-    const BruteForce oracle = BruteForce::build(scene.mesh);
-    for_each_exact_form(scene.size, [&]<class D>(const typename D::Options& options) {
-      SCOPED_TRACE(label(scene, options));
-      const D detector = D::build(scene.mesh, options);
+  for (const auto& named : test::test_meshes()) {
+    const BruteForce oracle = BruteForce::build(named.mesh);
+    for_each_exact_form(named.size, [&]<class D>(const typename D::Options& options) {
+      SCOPED_TRACE(label(named, options));
+      const D detector = D::build(named.mesh, options);
       typename D::Session used;
       BruteForce::Session oracle_session;
       test::Random random(19);
-      Vec3 center = test::random_point(scene, random);
+      Vec3 center = test::random_point(named, random);
       for (int step = 0; step < 600; ++step) {
-        if (step % 200 == 199) center = test::random_point(scene, random);
-        center += random.point(0.01 * scene.size);
-        const double reach = step % 3 == 0 ? infinity : 0.05 * scene.size;
+        if (step % 200 == 199) center = test::random_point(named, random);
+        center += random.point(0.01 * named.size);
+        const double reach = step % 3 == 0 ? infinity : 0.05 * named.size;
         expect_same(detector.nearest({center, 0}, reach, used),
                     oracle.nearest({center, 0}, reach, oracle_session));
-        const Probe probe{center, 0.1 * scene.size};
+        const Probe probe{center, 0.1 * named.size};
         EXPECT_EQ(detector.touches(probe, used), oracle.touches(probe, oracle_session));
         if constexpr (Prepares<D>) {
           if (step % 5 < 2) detector.prepare(used);
@@ -205,7 +205,7 @@ TEST(SphereCluster, EqualsBruteForceWhereMoreIsNearThanASessionRemembers) {
 }
 
 /// The most that one query looked at on a steady way over a bumpy sphere, once it has begun.
-std::uint64_t most_work_on_a_way(bool prepares, std::vector<Contact>& contacts) {
+std::uint64_t max_work_on_a_way(bool prepares, std::vector<Contact>& contacts) {
   const SphereCluster detector = SphereCluster::build(test::bumpy_sphere(60, 1e-3, 53));
   SphereCluster::Session session;
   std::uint64_t most = 0;
@@ -222,8 +222,8 @@ std::uint64_t most_work_on_a_way(bool prepares, std::vector<Contact>& contacts) 
 
 TEST(SphereCluster, PreparingTakesTheListingOutOfTheQueries) {
   std::vector<Contact> unprepared, prepared;
-  const std::uint64_t without = most_work_on_a_way(false, unprepared);
-  const std::uint64_t with = most_work_on_a_way(true, prepared);
+  const std::uint64_t without = max_work_on_a_way(false, unprepared);
+  const std::uint64_t with = max_work_on_a_way(true, prepared);
   EXPECT_LT(2 * with, without) << "a listing goes down from the root, a query looks at a list";
   for (std::size_t i = 0; i < prepared.size(); ++i) expect_same(prepared[i], unprepared[i]);
 }
@@ -262,20 +262,20 @@ TEST(SphereCluster, ASessionMayGoFromOneDetectorToTheNext) {
 }
 
 TEST(SphereCluster, SweepsAsBruteForceDoes) {
-  for (const auto& scene : test::test_meshes()) {
-    if (scene.name == "vanishing" || scene.name == "overflowing") continue;  // sweeps need squares
-    const BruteForce oracle = BruteForce::build(scene.mesh);
-    for_each_exact_form(scene.size, [&]<class D>(const typename D::Options& options) {
-      SCOPED_TRACE(label(scene, options));
-      const D detector = D::build(scene.mesh, options);
+  for (const auto& named : test::test_meshes()) {
+    if (named.name == "vanishing" || named.name == "overflowing") continue;  // sweeps need squares
+    const BruteForce oracle = BruteForce::build(named.mesh);
+    for_each_exact_form(named.size, [&]<class D>(const typename D::Options& options) {
+      SCOPED_TRACE(label(named, options));
+      const D detector = D::build(named.mesh, options);
       typename D::Session session;
       BruteForce::Session oracle_session;
       test::Random random(23);
       for (int step = 0; step < 150; ++step) {
-        const Vec3 from = test::random_point(scene, random);
+        const Vec3 from = test::random_point(named, random);
         const Vec3 to =
-            step % 2 == 0 ? test::random_point(scene, random) : Vec3(from + random.point(0.02 * scene.size));
-        const Sweep sweep{from, to, step % 5 == 0 ? 0 : scene.size * random.between(0, 0.05)};
+            step % 2 == 0 ? test::random_point(named, random) : Vec3(from + random.point(0.02 * named.size));
+        const Sweep sweep{from, to, step % 5 == 0 ? 0 : named.size * random.between(0, 0.05)};
         expect_same(detector.first_hit(sweep, session), oracle.first_hit(sweep, oracle_session));
         if (HasFailure()) return;
       }
@@ -348,23 +348,23 @@ TEST(SphereCluster, FarProbesGetTheAnswerOfBruteForce) {
 }
 
 TEST(SphereCluster, TheFastLevelNeverMissesAndKeepsItsBound) {
-  for (const auto& scene : test::test_meshes()) {
-    if (scene.name == "vanishing" || scene.name == "overflowing") continue;
-    const BruteForce oracle = BruteForce::build(scene.mesh);
-    for (const double clustering : {0.0, 0.1 * scene.size}) {
-      const auto detector = PublishedSphereCluster::build(scene.mesh, {clustering, false});
-      SCOPED_TRACE(scene.name);
+  for (const auto& named : test::test_meshes()) {
+    if (named.name == "vanishing" || named.name == "overflowing") continue;
+    const BruteForce oracle = BruteForce::build(named.mesh);
+    for (const double clustering : {0.0, 0.1 * named.size}) {
+      const auto detector = PublishedSphereCluster::build(named.mesh, {clustering, false});
+      SCOPED_TRACE(named.name);
       EXPECT_EQ(detector.accuracy().guarantee, Guarantee::conservative);
       PublishedSphereCluster::Session session;
       BruteForce::Session oracle_session;
       test::Random random(31);
       for (int step = 0; step < 300; ++step) {
-        const Vec3 center = test::random_point(scene, random);
-        const double radius = scene.size * random.between(0, 0.1);
+        const Vec3 center = test::random_point(named, random);
+        const double radius = named.size * random.between(0, 0.1);
         const double exact = oracle.nearest({center, 0}, infinity, oracle_session)->distance;
         const auto fast = detector.nearest({center, 0}, infinity, session);
         ASSERT_TRUE(fast);
-        const double rounding = 1e-14 * (scene.size + scene.mesh.diagonal());
+        const double rounding = 1e-14 * (named.size + named.mesh.diagonal());
         EXPECT_LE(fast->distance, exact + rounding);
         EXPECT_GE(fast->distance, exact - detector.accuracy().absolute - rounding);
         if (exact <= radius * (1 - 1e-14)) {
@@ -377,15 +377,15 @@ TEST(SphereCluster, TheFastLevelNeverMissesAndKeepsItsBound) {
 }
 
 TEST(SphereCluster, TheFastLevelAnswersWithTheFirstSphereOfLeastGap) {
-  for (const auto& scene : test::test_meshes()) {
-    if (scene.name == "overflowing") continue;  // its distances are no doubles
-    SCOPED_TRACE(scene.name);
-    const auto detector = PublishedSphereCluster::build(scene.mesh, {0.05 * scene.size, false});
+  for (const auto& named : test::test_meshes()) {
+    if (named.name == "overflowing") continue;  // its distances are no doubles
+    SCOPED_TRACE(named.name);
+    const auto detector = PublishedSphereCluster::build(named.mesh, {0.05 * named.size, false});
     const std::vector<Sphere>& spheres = detector.clusters().spheres;
     PublishedSphereCluster::Session session;
     test::Random random(32);
     for (int step = 0; step < 300; ++step) {
-      const Vec3 center = test::random_point(scene, random);
+      const Vec3 center = test::random_point(named, random);
       double least = infinity;
       std::size_t first = 0;
       for (std::size_t i = 0; i < spheres.size(); ++i) {
@@ -395,7 +395,7 @@ TEST(SphereCluster, TheFastLevelAnswersWithTheFirstSphereOfLeastGap) {
       }
       const auto answer = detector.nearest({center, 0}, infinity, session);
       ASSERT_TRUE(answer);
-      EXPECT_EQ(answer->triangle, scene.mesh.id(detector.clusters().triangles_of(first).front()));
+      EXPECT_EQ(answer->triangle, named.mesh.id(detector.clusters().triangles_of(first).front()));
       EXPECT_EQ(answer->distance, std::max(least, 0.0));
       // A reach is closed, and a probe touches what is no farther than its radius.
       EXPECT_TRUE(detector.nearest({center, 0}, answer->distance, session));

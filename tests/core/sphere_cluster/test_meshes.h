@@ -142,8 +142,8 @@ inline std::vector<NamedMesh> test_meshes() {
 }
 
 /// A point near the mesh: in the box around it, near a triangle, or on a vertex or an edge's middle.
-inline Vec3 random_point(const NamedMesh& scene, Random& random) {
-  const TriangleMesh& mesh = scene.mesh;
+inline Vec3 random_point(const NamedMesh& named, Random& random) {
+  const TriangleMesh& mesh = named.mesh;
   const std::size_t triangle = random.below(mesh.size());
   const Vec3 &a = mesh.corner(triangle, 0), &b = mesh.corner(triangle, 1), &c = mesh.corner(triangle, 2);
   switch (random.below(5)) {
@@ -153,10 +153,10 @@ inline Vec3 random_point(const NamedMesh& scene, Random& random) {
       return 0.5 * (a + b);
     case 2: {
       const double u = random.between(0, 1), v = random.between(0, 1 - u);
-      return a + u * (b - a) + v * (c - a) + random.point(0.02 * scene.size);
+      return a + u * (b - a) + v * (c - a) + random.point(0.02 * named.size);
     }
     default:
-      return scene.center + random.point(scene.size);
+      return named.center + random.point(named.size);
   }
 }
 

@@ -20,7 +20,7 @@ using Words = std::vector<std::string>;
 
 const std::string wrapping = TOUCHMARK_WRAPPING_PLUGIN;
 const std::string hostile = TOUCHMARK_HOSTILE_PLUGIN;
-const Words scene{"--mesh", "icosphere:2", "--trajectory", "slide", "--steps", "200"};
+const Words sphere{"--mesh", "icosphere:2", "--trajectory", "slide", "--steps", "200"};
 
 /// Has the hostile plug-in misbehave like that in what is started meanwhile.
 class Misbehaving {
@@ -43,12 +43,12 @@ Words column_of(const std::string& file, const std::string& column) {
   return values;
 }
 
-Words on_scene(const std::string& command, const Words& more) {
-  return joined(joined({command}, scene), more);
+Words on_sphere(const std::string& command, const Words& more) {
+  return joined(joined({command}, sphere), more);
 }
 
 TEST(Plugin, IsVerifiedLikeAnyOther) {
-  const Outcome outcome = run_touchmark(on_scene("verify", {"--plugin", wrapping}));
+  const Outcome outcome = run_touchmark(on_sphere("verify", {"--plugin", wrapping}));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("wrapped"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("600 answers judged exactly"), std::string::npos) << outcome.out;
@@ -58,8 +58,8 @@ TEST(Plugin, IsVerifiedLikeAnyOther) {
 TEST(Plugin, AnswersAsTheDetectorThatItWraps) {
   for (const char* const query : {"touches", "nearest", "sweep"}) {
     const Words asked{"--query", query, "--radius", "2%"};
-    const Outcome wrapped = run_touchmark(on_scene("query", joined({"--plugin", wrapping}, asked)));
-    const Outcome own = run_touchmark(on_scene("query", joined({"--detector", "grid-group"}, asked)));
+    const Outcome wrapped = run_touchmark(on_sphere("query", joined({"--plugin", wrapping}, asked)));
+    const Outcome own = run_touchmark(on_sphere("query", joined({"--detector", "grid-group"}, asked)));
     EXPECT_EQ(wrapped.status, 0) << wrapped.err;
     EXPECT_EQ(wrapped.out, own.out) << query;
   }
@@ -80,9 +80,9 @@ TEST(Plugin, NamesTrianglesByTheIdsOfTheFile) {
 
 TEST(Plugin, RunsBesideOthersAndWithOptions) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_touchmark(
-      on_scene("verify", {"--plugin", wrapping, "--detector", "brute-force", "--detector", "wrapped:cell=20%",
-                          "--plugin", hostile, "--query", "nearest", "--out", folder.path()}));
+  const Outcome outcome = run_touchmark(on_sphere(
+      "verify", {"--plugin", wrapping, "--detector", "brute-force", "--detector", "wrapped:cell=20%",
+                 "--plugin", hostile, "--query", "nearest", "--out", folder.path()}));
   EXPECT_EQ(outcome.status, 1) << outcome.err;  // the hostile one finds nothing and claims exactness
   const std::string csv = folder.file("results.csv");
   EXPECT_EQ(column_of(csv, "detector"), (Words{"brute-force", "wrapped", "hostile"}));
@@ -92,8 +92,8 @@ TEST(Plugin, RunsBesideOthersAndWithOptions) {
 TEST(Plugin, IsTimedOnTheSameAnswers) {
   const TemporaryFolder folder;
   const Outcome outcome =
-      run_touchmark(on_scene("bench", {"--plugin", wrapping, "--quick", "--benchmark_repetitions=1",
-                                       "--benchmark_min_time=0.001", "--no-cold", "--out", folder.path()}));
+      run_touchmark(on_sphere("bench", {"--plugin", wrapping, "--quick", "--benchmark_repetitions=1",
+                                        "--benchmark_min_time=0.001", "--no-cold", "--out", folder.path()}));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const std::string csv = folder.file("results.csv");
   EXPECT_EQ(column_of(csv, "status"), Words{"ok"});
@@ -133,7 +133,7 @@ TEST(Plugin, IsPlannedAndRunWithoutBeingNamedAgain) {
   const TemporaryFolder folder;
   const std::string manifest = folder.file("sweep.json");
   const Outcome planned =
-      run_touchmark(on_scene("plan", {"--plugin", wrapping, "--effort", "accuracy", "--out", manifest}));
+      run_touchmark(on_sphere("plan", {"--plugin", wrapping, "--effort", "accuracy", "--out", manifest}));
   ASSERT_EQ(planned.status, 0) << planned.err;
   const Outcome run = run_touchmark({"run", "--manifest", manifest, "--out", folder.file("jobs")});
   EXPECT_EQ(run.status, 0) << run.err;
@@ -144,7 +144,7 @@ TEST(Plugin, ThatChangedSinceItWasPlannedIsNotRun) {
   const TemporaryFolder folder;
   const std::string manifest = folder.file("sweep.json"), copy = folder.file("copy.so");
   std::filesystem::copy_file(wrapping, copy);
-  ASSERT_EQ(run_touchmark(on_scene("plan", {"--plugin", copy, "--out", manifest})).status, 0);
+  ASSERT_EQ(run_touchmark(on_sphere("plan", {"--plugin", copy, "--out", manifest})).status, 0);
   std::ofstream(copy, std::ios::app) << ' ';
   expect_bad_input({"run", "--manifest", manifest, "--out", folder.file("jobs")},
                    {copy, "is not the one that was planned"});
@@ -158,13 +158,13 @@ TEST(Plugin, ThatIsNoneIsRefusedInOneLine) {
   std::ofstream(empty) << "";
   std::ofstream(library) << "";
   for (const std::string& file : {text, empty, folder.file("absent.so")})
-    expect_bad_input(on_scene("verify", {"--plugin", file}), {"--plugin " + file});
-  expect_bad_input(on_scene("verify", {"--plugin", folder.path()}), {"it is not a file"});
-  expect_bad_input(on_scene("verify", {"--plugin", library}), {"ends in none of .so"});
-  expect_bad_input(on_scene("verify", {"--plugin", TOUCHMARK_NO_PLUGIN}), {"touchmark_plugin_entry"});
-  expect_bad_input(on_scene("verify", {"--plugin", wrapping, "--plugin", wrapping}),
+    expect_bad_input(on_sphere("verify", {"--plugin", file}), {"--plugin " + file});
+  expect_bad_input(on_sphere("verify", {"--plugin", folder.path()}), {"it is not a file"});
+  expect_bad_input(on_sphere("verify", {"--plugin", library}), {"ends in none of .so"});
+  expect_bad_input(on_sphere("verify", {"--plugin", TOUCHMARK_NO_PLUGIN}), {"touchmark_plugin_entry"});
+  expect_bad_input(on_sphere("verify", {"--plugin", wrapping, "--plugin", wrapping}),
                    {"\"wrapped\" is taken by"});
-  expect_bad_input(on_scene("query", {"--plugin", wrapping, "--detector", "brute-force"}), {"exactly one"});
+  expect_bad_input(on_sphere("query", {"--plugin", wrapping, "--detector", "brute-force"}), {"exactly one"});
 }
 
 TEST(Plugin, WhoseDescriptionIsWrongIsRefusedInOneLine) {
@@ -183,7 +183,7 @@ TEST(Plugin, WhoseDescriptionIsWrongIsRefusedInOneLine) {
                                                         {"no build", "build is NULL"},
                                                         {"no query", "it answers nothing"}}) {
     const Misbehaving now(how);
-    expect_bad_input(on_scene("verify", {"--plugin", hostile}), {hostile, why});
+    expect_bad_input(on_sphere("verify", {"--plugin", hostile}), {hostile, why});
   }
 }
 
@@ -201,8 +201,8 @@ TEST(Plugin, ThatFailsLaterHasAStatusAndEndsNothing) {
     const Misbehaving now(how);
     const TemporaryFolder folder;
     const Outcome outcome =
-        run_touchmark(on_scene("verify", {"--plugin", hostile, "--query", "nearest", "--detector",
-                                          "brute-force", "--timeout", "0.3", "--out", folder.path()}));
+        run_touchmark(on_sphere("verify", {"--plugin", hostile, "--query", "nearest", "--detector",
+                                           "brute-force", "--timeout", "0.3", "--out", folder.path()}));
     const Words statuses = column_of(folder.file("results.csv"), "status");
     ASSERT_EQ(statuses.size(), 2u) << how << outcome.err;
     EXPECT_EQ(statuses[0], "ok") << how;
@@ -213,7 +213,7 @@ TEST(Plugin, ThatFailsLaterHasAStatusAndEndsNothing) {
 #ifdef __SSE__
 TEST(Plugin, ThatSwitchesDenormalsOffIsToldOf) {
   const Misbehaving now("flush to zero");
-  const Outcome outcome = run_touchmark(on_scene("verify", {"--plugin", hostile}));
+  const Outcome outcome = run_touchmark(on_sphere("verify", {"--plugin", hostile}));
   EXPECT_NE(outcome.err.find("hostile: loading it switched denormal numbers off"), std::string::npos)
       << outcome.err;
 }
@@ -227,7 +227,7 @@ TEST(Plugin, ThatAnswersGarbageIsFoundOut) {
                                                         {"find nothing", "missed"}}) {
     const Misbehaving now(how);
     const TemporaryFolder folder;
-    const Outcome outcome = run_touchmark(on_scene(
+    const Outcome outcome = run_touchmark(on_sphere(
         "verify", {"--plugin", hostile, "--query", "nearest", "--reach", "inf", "--out", folder.path()}));
     EXPECT_EQ(outcome.status, 1) << how << outcome.err;
     EXPECT_EQ(column_of(folder.file("results.csv"), column).at(0), "200") << how;
@@ -236,7 +236,7 @@ TEST(Plugin, ThatAnswersGarbageIsFoundOut) {
 
 TEST(Plugin, ThatClaimsLittleIsNotBroken) {
   const Misbehaving now("approximate");
-  const Outcome outcome = run_touchmark(on_scene("verify", {"--plugin", hostile, "--query", "nearest"}));
+  const Outcome outcome = run_touchmark(on_sphere("verify", {"--plugin", hostile, "--query", "nearest"}));
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   EXPECT_NE(outcome.out.find("as claimed"), std::string::npos);
 }

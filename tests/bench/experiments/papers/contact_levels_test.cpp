@@ -10,7 +10,7 @@
 
 #include "bench/experiments/papers/level_switch.h"
 #include "bench/experiments/papers/paper_trace.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 
 namespace touchmark::bench::experiments::papers {
 namespace {
@@ -114,7 +114,7 @@ class SimulatedLevels : public testing::Test {
     };
   }
 
-  const TriangleMesh mesh = scenes::load_scene("icosphere:1");
+  const TriangleMesh mesh = meshes::load_mesh("icosphere:1");
   ContactLevels levels = choi_sung_levels(mesh, {.levels = 2, .clustering = 0.05, .radius = 0.05});
   std::vector<workload::Step> trace = paper_trace("slide", mesh, 200, 1, 0.05);
   std::vector<double> expected;
@@ -147,7 +147,7 @@ TEST_F(SimulatedLevels, AnswerAsTheLevelOfTheMomentDoesAndFollowTheLoad) {
 }
 
 TEST(ContactLevels, HaveARowForEveryLevelTreeAndWantedRate) {
-  const TriangleMesh mesh = scenes::load_scene("icosphere:1");
+  const TriangleMesh mesh = meshes::load_mesh("icosphere:1");
   const ContactLevelResult result = run_contact_levels(
       mesh, {.levels = 1, .clustering = 0.05, .radius = 0.05, .steps = 700, .rates = 3, .rounds = 2},
       [](const std::string&) {});

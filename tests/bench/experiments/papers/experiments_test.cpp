@@ -24,7 +24,7 @@
 #include "bench/experiments/papers/park_jang.h"
 #include "bench/experiments/papers/sphere_partitions.h"
 #include "bench/experiments/papers/surface_measures.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/median.h"
 #include "bench/support/table.h"
@@ -66,8 +66,8 @@ TEST(Scores, RunFromNoughtForTheWorstToFiveForTheBest) {
 }
 
 TEST(ConcaveBending, IsNoneOfAConvexSurfaceAndKeptByWhatDoesNotMoveIt) {
-  EXPECT_EQ(concave_bending(scenes::load_scene("cube")), 0);
-  const TriangleMesh torus = scenes::load_scene("torus:16x8");
+  EXPECT_EQ(concave_bending(meshes::load_mesh("cube")), 0);
+  const TriangleMesh torus = meshes::load_mesh("torus:16x8");
   const double bending = concave_bending(torus);
   EXPECT_GT(bending, 0);
   const TriangleMesh finer = subdivide(torus, {.method = SubdivisionMethod::mid_point, .levels = 1});
@@ -75,7 +75,7 @@ TEST(ConcaveBending, IsNoneOfAConvexSurfaceAndKeptByWhatDoesNotMoveIt) {
 }
 
 TEST(SpherePartitions, HalveIntoAsManyPartsAsWantedWithEveryTriangleOnce) {
-  const TriangleMesh mesh = scenes::load_scene("icosphere:2");
+  const TriangleMesh mesh = meshes::load_mesh("icosphere:2");
   for (const std::size_t wanted : {1u, 7u, 320u, 1000u}) {
     const auto parts = halved_into(mesh, wanted);
     EXPECT_EQ(parts.size(), std::min<std::size_t>(wanted, mesh.size()));
@@ -87,7 +87,7 @@ TEST(SpherePartitions, HalveIntoAsManyPartsAsWantedWithEveryTriangleOnce) {
 }
 
 TEST(SpherePartitions, AgreeWhereEveryTriangleHasItsOwnSphere) {
-  const TriangleMesh mesh = scenes::load_scene("icosphere:2");
+  const TriangleMesh mesh = meshes::load_mesh("icosphere:2");
   const PartitionTightness tightness = partition_tightness(mesh, cluster_spheres(mesh, 0));
   EXPECT_NEAR(tightness.bottom_up, tightness.top_down, 1e-12);
 }
@@ -155,7 +155,7 @@ TEST(Operations, OfACuboidAreSixComparisonsAndOfASphereNine) {
 }
 
 TEST(Operations, OfATriangleAreThoseOfAQueryWithoutGroups) {
-  const TriangleMesh mesh = scenes::load_scene("icosphere:3");
+  const TriangleMesh mesh = meshes::load_mesh("icosphere:3");
   const std::vector<workload::Step> trace = paper_trace("slide", mesh, 20, 1, 0.01);
   Counted::operations = 0;
   int least = 1000, most = 0;
@@ -179,7 +179,7 @@ TEST(Operations, OfATriangleAreThoseOfAQueryWithoutGroups) {
 
 TEST(Decimation, LeavesAboutAsManyTrianglesAsWantedAndTheShape) {
   if (!can_decimate()) GTEST_SKIP() << "built without OpenMesh";
-  const TriangleMesh sphere = scenes::load_scene("icosphere:4");
+  const TriangleMesh sphere = meshes::load_mesh("icosphere:4");
   const TriangleMesh coarse = decimate(sphere, 900);
   EXPECT_NEAR(static_cast<double>(coarse.size()), 900, 2);
   EXPECT_TRUE(edge_statistics(coarse).closed());
@@ -205,7 +205,7 @@ TEST(Claims, NameAnotherMeshWithOrWithoutAFurtherReason) {
 }
 
 TEST(InterleavedTiming, TimesEachDetectorAndSeesThatTheyAnswerAlike) {
-  const TriangleMesh mesh = scenes::load_scene("icosphere:2");
+  const TriangleMesh mesh = meshes::load_mesh("icosphere:2");
   const std::vector<workload::Step> trace = paper_trace("slide", mesh, 50, 1, 0.01);
   InterleavedTiming timing(trace, workload::Query::nearest, 1);
   timing.add(contestants::contestant<BruteForce>(mesh, {}));
@@ -235,7 +235,7 @@ struct Instant {
 
 TEST(InterleavedTiming, GivesNoTimeShorterThanTheClockCanTell) {
   const std::vector<workload::Step> trace =
-      paper_trace("slide", scenes::load_scene("icosphere:1"), 50, 1, 0.01);
+      paper_trace("slide", meshes::load_mesh("icosphere:1"), 50, 1, 0.01);
   InterleavedTiming timing(trace, workload::Query::nearest, 1);
   timing.add(std::make_unique<contestants::ContestantOf<Instant>>(Instant()));
   timing.run({3, 1e4}, [](std::size_t, std::size_t) {});
@@ -244,7 +244,7 @@ TEST(InterleavedTiming, GivesNoTimeShorterThanTheClockCanTell) {
 }
 
 TEST(GeometricError, IsNoughtOfTheReferenceAndTheGapOfASmallerSphere) {
-  const TriangleMesh mesh = scenes::load_scene("icosphere:4");
+  const TriangleMesh mesh = meshes::load_mesh("icosphere:4");
   const ReferenceSurface reference(mesh, 0.3, 200, 1);
   EXPECT_EQ(reference.error_of(SphereCluster::build(mesh)).max, 0);
   const GeometricError error = reference.error_of(SphereCluster::build(mesh.transformed(0.9, Vec3::Zero())));
@@ -254,7 +254,7 @@ TEST(GeometricError, IsNoughtOfTheReferenceAndTheGapOfASmallerSphere) {
 }
 
 TEST(GeometricError, OfTheFastLevelLiesWithinItsBound) {
-  const TriangleMesh mesh = scenes::load_scene("icosphere:3");
+  const TriangleMesh mesh = meshes::load_mesh("icosphere:3");
   const ReferenceSurface reference(mesh, 0.3, 200, 1);
   const auto fast = PublishedSphereCluster::build(mesh, {.clustering = 0.1, .precise = false});
   const GeometricError error = reference.error_of(fast);
@@ -275,7 +275,7 @@ ChoiSungSettings small_settings() {
 void ignore(const SurfaceMeasures&, const TriangleMesh&, const SphereClusters&, const SphereClusters&) {}
 
 TEST(ChoiSung, MeasuresTheSameTwice) {
-  const TriangleMesh mesh = scenes::load_scene("icosphere:1");
+  const TriangleMesh mesh = meshes::load_mesh("icosphere:1");
   const ChoiSungResult a = run_choi_sung(mesh, small_settings(), ignore, [](const std::string&) {});
   const ChoiSungResult b = run_choi_sung(mesh, small_settings(), ignore, [](const std::string&) {});
   ASSERT_EQ(a.rows.size(), b.rows.size());
@@ -290,7 +290,7 @@ TEST(ChoiSung, MeasuresTheSameTwice) {
 
 TEST(ChoiSung, CreasesGoAwayWhereTheSurfaceGetsSmooth) {
   const ChoiSungResult result =
-      run_choi_sung(scenes::load_scene("icosphere:1"), small_settings(), ignore, [](const std::string&) {});
+      run_choi_sung(meshes::load_mesh("icosphere:1"), small_settings(), ignore, [](const std::string&) {});
   const auto crease = [&](SubdivisionMethod method, int level) {
     return find_row(result, method, level, false)->surface.crease_deg;
   };
@@ -303,7 +303,7 @@ TEST(ChoiSung, CreasesGoAwayWhereTheSurfaceGetsSmooth) {
 TEST(ChoiSung, KeepsFinishedRowsWhenInterrupted) {
   support::watch_for_interrupts();
   const ChoiSungResult result =
-      run_choi_sung(scenes::load_scene("icosphere:1"), small_settings(), ignore, [](const std::string& what) {
+      run_choi_sung(meshes::load_mesh("icosphere:1"), small_settings(), ignore, [](const std::string& what) {
         if (what.starts_with("catmull-clark-linear level 1")) std::raise(SIGINT);
       });
   support::watch_for_interrupts();
@@ -315,8 +315,8 @@ TEST(ChoiSung, KeepsFinishedRowsWhenInterrupted) {
 }
 
 TEST(ParkJang, KeepsFinishedRowsWhenInterrupted) {
-  const std::vector<PaperMesh> meshes{{"a", scenes::load_scene("icosphere:2"), ""},
-                                      {"b", scenes::load_scene("icosphere:3"), ""}};
+  const std::vector<PaperMesh> meshes{{"a", meshes::load_mesh("icosphere:2"), ""},
+                                      {"b", meshes::load_mesh("icosphere:3"), ""}};
   ParkJangSettings settings{.groups = {1, 10}, .steps = 20, .radius = {0.1, true}, .effort = {1, 1e3}};
   support::watch_for_interrupts();
   const ParkJangResult result = run_park_jang(meshes, settings, [](const std::string& what) {
@@ -397,7 +397,7 @@ TEST(LineFit, FindsTheLine) {
 }
 
 TEST(SurfaceRuler, TellsWhatASmallerSphereLost) {
-  const TriangleMesh sphere = scenes::load_scene("icosphere:3");
+  const TriangleMesh sphere = meshes::load_mesh("icosphere:3");
   const SurfaceRuler ruler(sphere);
   const SurfaceMeasures same = ruler.measure("original", 0, sphere);
   EXPECT_TRUE(same.keeps_vertices);
@@ -426,7 +426,7 @@ TEST(ChoiSungModels, AreClosedAndTheStatementsAreAskedOfThem) {
   ChoiSungSettings settings = small_settings();
   settings.levels = 3;
   ChoiSungResult result;
-  const std::vector<Model> ball{{"ball", scenes::load_scene("icosphere:0")}};
+  const std::vector<Model> ball{{"ball", meshes::load_mesh("icosphere:0")}};
   add_models(ball, settings, 2, result, [](const std::string&) {});
   EXPECT_GT(result.models.size(), 10u);
   EXPECT_EQ(result.models[0].model, "ball");

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/experiments/papers/decimation.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "tests/bench/cli/run_touchmark.h"
 
 namespace touchmark::bench::cli {

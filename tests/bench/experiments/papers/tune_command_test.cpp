@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/experiments/papers/tuning.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "core/subdivision/subdivision.h"
 #include "tests/bench/cli/run_touchmark.h"
 
@@ -104,13 +104,13 @@ TEST(TuneCommand, FindsAFinerSurfaceAtARateThatEveryoneHolds) {
 }
 
 TEST(SharpEdges, AreThoseOfACubeHoweverFinelyItsFacesAreCut) {
-  const TriangleMesh cube = scenes::load_scene("cube");
+  const TriangleMesh cube = meshes::load_mesh("cube");
   EXPECT_EQ(sharp_edges(cube).count, 12u);
   EXPECT_EQ(sharp_edges(cube).share, 1);
   const TriangleMesh fine = subdivide(cube, {.method = SubdivisionMethod::mid_point, .levels = 3});
   EXPECT_EQ(sharp_edges(fine).count, 12u * 8);
   EXPECT_EQ(sharp_edges(fine).share, 1);
-  EXPECT_EQ(sharp_edges(scenes::load_scene("icosphere:2")).count, 0u);
+  EXPECT_EQ(sharp_edges(meshes::load_mesh("icosphere:2")).count, 0u);
 }
 
 TEST(TuneCommand, AnswersFirstAndKeepsTheCornersOfACube) {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/experiments/proxy/tally.h"
-#include "bench/scenes/surface_builder.h"
+#include "bench/meshes/surface_builder.h"
 
 namespace touchmark::bench::experiments::proxy {
 namespace {
@@ -15,14 +15,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The square |x|, |y| <= 1 at z = 0.
 TriangleMesh sheet() {
-  scenes::Surface surface;
-  scenes::add_patch(surface, 2, 2, [](double u, double v) { return Vec3(2 * u - 1, 2 * v - 1, 0); });
+  meshes::Surface surface;
+  meshes::add_patch(surface, 2, 2, [](double u, double v) { return Vec3(2 * u - 1, 2 * v - 1, 0); });
   return std::move(surface).mesh();
 }
 
 TriangleMesh box() {
-  scenes::Surface surface;
-  scenes::add_box(surface, Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  meshes::Surface surface;
+  meshes::add_box(surface, Vec3(-1, -1, -1), Vec3(1, 1, 1));
   return std::move(surface).mesh();
 }
 

@@ -41,8 +41,8 @@ contestants::Roster slow_roster() {
   info.name = "slow";
   info.queries = {workload::Query::nearest};
   info.scenes_only = true;
-  info.build_scene = [](const bodies::PlacedScene& placed, const contestants::OptionValues&) {
-    return contestants::scene_contestant(placed, [](const bodies::PlacedScene&) { return SlowScene(); });
+  info.build_scene = [](const scenes::PlacedScene& placed, const contestants::OptionValues&) {
+    return contestants::scene_contestant(placed, [](const scenes::PlacedScene&) { return SlowScene(); });
   };
   info.build = [](const TriangleMesh&, const contestants::OptionValues&) {
     return std::unique_ptr<contestants::Contestant>();

@@ -11,7 +11,7 @@
 
 #include "bench/contestants/contestant_of.h"
 #include "bench/contestants/guided_proxy.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "bench/workers/servo_stretch.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/bench/experiments/servo/simulated_clock.h"
@@ -41,7 +41,7 @@ class Blind {
 /// From above a cube's top straight down through it in 40 steps.
 class ProxyReplayTest : public testing::Test {
  protected:
-  ProxyReplayTest() : workload_{"cube", scenes::load_mesh("cube", false), radius, {}, {"down"}, {{}}} {
+  ProxyReplayTest() : workload_{"cube", meshes::load_mesh("cube", false), radius, {}, {"down"}, {{}}} {
     for (int i = 0; i <= 40; ++i) workload_.traces[0].push_back({{{0.1, 0.2, 2 - 0.1 * i}, radius}, radius});
   }
 

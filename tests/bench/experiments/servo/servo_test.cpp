@@ -17,7 +17,7 @@
 #include "bench/experiments/servo/servo_trace.h"
 #include "bench/experiments/servo/tick_tally.h"
 #include "bench/experiments/servo/verdict.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "bench/workers/real_time.h"
 #include "tests/bench/experiments/servo/simulated_clock.h"
 #include "tests/temporary_folder.h"
@@ -116,7 +116,7 @@ TEST(TickTally, CountsMissesLostTicksAndTheLongestRun) {
   EXPECT_EQ(tally.ticks(), 8u);
   EXPECT_EQ(tally.missed(), 3u);
   EXPECT_EQ(tally.lost(), 2u);
-  EXPECT_EQ(tally.longest_run(), 3u);
+  EXPECT_EQ(tally.max_run(), 3u);
   EXPECT_EQ(tally.latency().max_ns(), 3'200'000);
   EXPECT_EQ(tally.query().count(), 6u) << "a lost tick has no query";
   ASSERT_EQ(tally.worst().size(), 6u);
@@ -129,7 +129,7 @@ TEST(TickTally, ARunEndsWithItsStretch) {
   TickTally tally(1000, 1);
   for (int i = 0; i < 3; ++i) tally.add(std::vector<workers::TickRecord>(4, late));
   EXPECT_EQ(tally.missed(), 12u);
-  EXPECT_EQ(tally.longest_run(), 4u);
+  EXPECT_EQ(tally.max_run(), 4u);
 }
 
 TEST(TickTally, ATickThatTakesJustThePeriodIsInTime) {
@@ -302,7 +302,7 @@ TEST(Verdict, AnOverrunIsTheDetectorsUnlessTheIdleLoopOverranAsWell) {
 }
 
 TEST(ServoTrace, GoesByTimeAtAnyRate) {
-  const TriangleMesh mesh = scenes::load_scene("icosphere:2");
+  const TriangleMesh mesh = meshes::load_mesh("icosphere:2");
   workload::Selection selection;
   selection.radius = {0.5, true};
   ServoSettings settings;

@@ -15,7 +15,7 @@
 #include "bench/experiments/suite/suite_plan.h"
 #include "bench/experiments/suite/suite_report.h"
 #include "bench/experiments/suite/suite_score.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "bench/trajectories/trajectories.h"
 #include "tests/temporary_folder.h"
 
@@ -48,7 +48,7 @@ TEST(SuitePlan, HasThirtyScenesOfDifferentKindsThatNeedNoFile) {
   for (const std::string& mesh : meshes) {
     if (mesh.find('/') != std::string::npos || mesh == "bunny" || mesh.starts_with("dragon")) continue;
     kinds.insert(mesh.substr(0, mesh.find(':')));
-    const TriangleMesh loaded = scenes::load_scene(mesh);
+    const TriangleMesh loaded = meshes::load_mesh(mesh);
     EXPECT_GT(loaded.size(), 300U) << mesh;
     EXPECT_LT(loaded.size(), 25'000U) << mesh;
     EXPECT_GT(loaded.diagonal(), 0) << mesh;
@@ -58,8 +58,8 @@ TEST(SuitePlan, HasThirtyScenesOfDifferentKindsThatNeedNoFile) {
 
 std::map<std::string, std::size_t> counted(const SuitePlan& plan, std::string (*property)(const SuiteCell&)) {
   std::map<std::string, std::size_t> counts;
-  for (const SuiteScene& scene : plan.scenes)
-    for (const SuiteCell& cell : scene.cells) ++counts[property(cell)];
+  for (const SuiteMesh& planned : plan.meshes)
+    for (const SuiteCell& cell : planned.cells) ++counts[property(cell)];
   return counts;
 }
 
@@ -86,17 +86,17 @@ TEST(SuitePlan, FewerCellsAreTheBeginningOfMoreAndTheLastIsAlsoCold) {
                   other = make_plan(meshes, 4, 8);
   bool differs = false;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    ASSERT_EQ(few.scenes[i].cells.size(), 4U);
-    EXPECT_EQ(more.scenes[i].cells.size(), every_cell().size());
+    ASSERT_EQ(few.meshes[i].cells.size(), 4U);
+    EXPECT_EQ(more.meshes[i].cells.size(), every_cell().size());
     std::set<std::string> seen;
-    for (const SuiteCell& cell : more.scenes[i].cells)
+    for (const SuiteCell& cell : more.meshes[i].cells)
       seen.insert(cell.trajectory + std::to_string(static_cast<int>(cell.query)) + cell.reach);
     EXPECT_EQ(seen.size(), every_cell().size());
     for (std::size_t k = 0; k < 4; ++k) {
-      EXPECT_EQ(few.scenes[i].cells[k].trajectory, more.scenes[i].cells[k].trajectory);
-      EXPECT_EQ(few.scenes[i].cells[k].reach, more.scenes[i].cells[k].reach);
-      EXPECT_EQ(few.scenes[i].cells[k].cold, k == 3);
-      differs = differs || few.scenes[i].cells[k].trajectory != other.scenes[i].cells[k].trajectory;
+      EXPECT_EQ(few.meshes[i].cells[k].trajectory, more.meshes[i].cells[k].trajectory);
+      EXPECT_EQ(few.meshes[i].cells[k].reach, more.meshes[i].cells[k].reach);
+      EXPECT_EQ(few.meshes[i].cells[k].cold, k == 3);
+      differs = differs || few.meshes[i].cells[k].trajectory != other.meshes[i].cells[k].trajectory;
     }
   }
   EXPECT_TRUE(differs);

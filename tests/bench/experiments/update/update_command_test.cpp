@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/scenes/deformation.h"
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/deformation.h"
+#include "bench/meshes/meshes.h"
 #include "tests/bench/cli/csv_fields.h"
 #include "tests/bench/cli/run_touchmark.h"
 #include "tests/temporary_folder.h"
@@ -58,11 +58,11 @@ TEST_F(Update, RefusesSharesThatAreNone) {
 }
 
 TEST(Deformation, MovesItsShareOfTheVerticesNotFar) {
-  const TriangleMesh mesh = scenes::load_scene("icosphere:4");
+  const TriangleMesh mesh = meshes::load_mesh("icosphere:4");
   const auto vertices = static_cast<double>(mesh.vertices().size());
   for (const double share : {0.01, 0.1, 1.0}) {
-    const TriangleMesh after = scenes::deformed(mesh, {share, 3});
-    EXPECT_NEAR(static_cast<double>(scenes::moved_vertices(mesh, after)), share * vertices, 0.5);
+    const TriangleMesh after = meshes::deformed(mesh, {share, 3});
+    EXPECT_NEAR(static_cast<double>(meshes::moved_vertices(mesh, after)), share * vertices, 0.5);
     double farthest = 0;
     Aabb patch;
     for (std::size_t i = 0; i < mesh.vertices().size(); ++i) {
@@ -73,8 +73,8 @@ TEST(Deformation, MovesItsShareOfTheVerticesNotFar) {
     EXPECT_GT(farthest, 1e-3);
     // A quarter of its patch's radius at most; the wave 1 % of the diagonal.
     EXPECT_LE(farthest, share < 1 ? 0.25 * 0.5 * patch.diagonal() : 0.0100001 * mesh.diagonal());
-    EXPECT_EQ(scenes::moved_vertices(scenes::deformed(mesh, {share, 3}), after), 0U);
-    EXPECT_GT(scenes::moved_vertices(scenes::deformed(mesh, {share, 4}), after), 0U);
+    EXPECT_EQ(meshes::moved_vertices(meshes::deformed(mesh, {share, 3}), after), 0U);
+    EXPECT_GT(meshes::moved_vertices(meshes::deformed(mesh, {share, 4}), after), 0U);
   }
 }
 

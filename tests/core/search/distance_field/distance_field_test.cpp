@@ -48,14 +48,14 @@ struct Measured {
   std::vector<BruteForce> each;
 };
 
-/// Takes samples as a detector does that knows a triangle near each, and gives up after `most_samples`.
+/// Takes samples as a detector does that knows a triangle near each, and gives up after `max_samples`.
 class KnowingSampler {
  public:
-  KnowingSampler(const Measured& mesh, std::size_t& searches, std::size_t most_samples = 1'000'000)
-      : mesh_(mesh), searches_(searches), most_samples_(most_samples) {}
+  KnowingSampler(const Measured& mesh, std::size_t& searches, std::size_t max_samples = 1'000'000)
+      : mesh_(mesh), searches_(searches), max_samples_(max_samples) {}
 
   DistanceField::Interval operator()(const Vec3& place, double most) {
-    if (searches_++ >= most_samples_) return {-1, -1};
+    if (searches_++ >= max_samples_) return {-1, -1};
     const Contact found = nearest(mesh_.all, place);
     near_ = found.triangle;
     const double distance = mesh_.frame.scale() * found.distance;
@@ -79,7 +79,7 @@ class KnowingSampler {
 
   const Measured& mesh_;
   std::size_t& searches_;
-  std::size_t most_samples_;
+  std::size_t max_samples_;
   std::uint32_t near_ = 0;
   Vec3 to_mesh_ = Vec3::Zero();
 };
@@ -89,19 +89,19 @@ static_assert(KnowsTriangles<KnowingSampler>);
 /// What a detector would make of the mesh, its samples known no better than `least` times the distance, and
 /// what one that knows triangles would.
 struct Grid {
-  explicit Grid(const TriangleMesh& mesh, double least = 1, std::size_t most_samples = 1'000'000)
+  explicit Grid(const TriangleMesh& mesh, double least = 1, std::size_t max_samples = 1'000'000)
       : measured(mesh), frame(measured.frame) {
     const Vec3 low = frame.to_frame(mesh.bounds().min), high = frame.to_frame(mesh.bounds().max);
     grid = above = DistanceField(low.cast<float>(), high.cast<float>(), mesh.size());
     const auto distance_at = [&](const Vec3& place, double most) {
-      if (samples++ >= most_samples) return DistanceField::Interval{-1, -1};
+      if (samples++ >= max_samples) return DistanceField::Interval{-1, -1};
       const double found = distance(place);
       EXPECT_LE(found, most);
       return DistanceField::Interval{least * found, found};
     };
     grid.fill([&](double) { return distance_at; }, 1);
     std::size_t searches = 0;
-    above.fill([&](double) { return KnowingSampler(measured, searches, most_samples); }, 1);
+    above.fill([&](double) { return KnowingSampler(measured, searches, max_samples); }, 1);
   }
   double distance(const Vec3& in_frame) const {
     return frame.scale() * distance_to(measured.all, frame.origin() + in_frame / frame.scale());
@@ -172,7 +172,7 @@ TEST(DistanceGrid, BoundsTheDistanceFromAboveByAPointOfTheMesh) {
   std::size_t searches = 0;
   grid.fill([&](double) { return KnowingSampler(measured, searches); }, 1);
   const double largest_edge = 1.2 * (high - low).maxCoeff() / std::cbrt(4096 / 8);
-  double most_aside = 0;
+  double max_aside = 0;
   for (int i = 0; i < 20'000; ++i) {
     Vec3 p = frame.from_frame(random.point(0.5));
     p.x() *= 0.7;
@@ -181,9 +181,9 @@ TEST(DistanceGrid, BoundsTheDistanceFromAboveByAPointOfTheMesh) {
     const auto upper = static_cast<double>(grid.upper_bound(frame.point(p)));
     EXPECT_GE(upper, distance) << p.transpose();
     EXPECT_LE(upper, std::hypot(distance, std::sqrt(0.5) * largest_edge) + 0x1p-12) << p.transpose();
-    most_aside = std::max(most_aside, upper - distance);
+    max_aside = std::max(max_aside, upper - distance);
   }
-  EXPECT_GT(most_aside, 0x1p-12);  // some points were aside
+  EXPECT_GT(max_aside, 0x1p-12);  // some points were aside
 }
 
 TEST(DistanceGrid, ForgetsThePointsOfTheMeshThatMoved) {

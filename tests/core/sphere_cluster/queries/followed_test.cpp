@@ -28,21 +28,21 @@ bool same_bits(const std::optional<Contact>& a, const std::optional<Contact>& b)
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Walks from a random place, in steps as long as this part of the scene.
-void expect_walks_alike(const SphereCluster& detector, const test::NamedMesh& scene, double step,
+/// Walks from a random place, in steps as long as this part of the mesh.
+void expect_walks_alike(const SphereCluster& detector, const test::NamedMesh& named, double step,
                         std::uint64_t seed) {
   test::Random random(seed);
   SphereCluster::FollowedPoint followed;
   Work work;
   for (int walk = 0; walk < 3; ++walk) {
-    Vec3 at = test::random_point(scene, random);
+    Vec3 at = test::random_point(named, random);
     for (int tick = 0; tick < 30; ++tick) {
-      at += random.point(step * scene.size);
-      for (const double reach : {0.0, 0.01 * scene.size, 0.3 * scene.size, infinity}) {
+      at += random.point(step * named.size);
+      for (const double reach : {0.0, 0.01 * named.size, 0.3 * named.size, infinity}) {
         SphereCluster::Session fresh;
         ASSERT_TRUE(same_bits(detector.nearest({at, 0}, reach, followed, work),
                               detector.nearest({at, 0}, reach, fresh)))
-            << scene.name << ", step " << step << ", walk " << walk << ", tick " << tick << ", reach "
+            << named.name << ", step " << step << ", walk " << walk << ", tick " << tick << ", reach "
             << reach;
       }
     }
@@ -51,20 +51,20 @@ void expect_walks_alike(const SphereCluster& detector, const test::NamedMesh& sc
 
 TEST(FollowedPoint, IsAnsweredAsOneOfWhichNothingIsKnown) {
   std::uint64_t seed = 1;
-  for (const test::NamedMesh& scene : test::test_meshes()) {
-    const auto detector = SphereCluster::build(scene.mesh);
-    for (const double step : {0.0, 1e-9, 1e-4, 1e-2, 0.3}) expect_walks_alike(detector, scene, step, ++seed);
+  for (const test::NamedMesh& named : test::test_meshes()) {
+    const auto detector = SphereCluster::build(named.mesh);
+    for (const double step : {0.0, 1e-9, 1e-4, 1e-2, 0.3}) expect_walks_alike(detector, named, step, ++seed);
   }
 }
 
 TEST(FollowedPoint, IsAnsweredAlikeByEveryInstructionSetAndForm) {
-  const test::NamedMesh scene = test::test_meshes().front();
+  const test::NamedMesh named = test::test_meshes().front();
   for (const Simd widest : {Simd::portable, Simd::avx2}) {
     SphereCluster::Options options;
     options.widest = widest;
     options.construction =
         widest == Simd::avx2 ? SphereCluster::Construction::lazy : SphereCluster::Construction::whole;
-    expect_walks_alike(SphereCluster::build(scene.mesh, options), scene, 1e-3, 3);
+    expect_walks_alike(SphereCluster::build(named.mesh, options), named, 1e-3, 3);
   }
 }
 
@@ -72,8 +72,8 @@ TEST(FollowedPoint, IsAnsweredAlikeByEveryInstructionSetAndForm) {
 TEST(FollowedPoint, IsAnsweredAlikeWhereDoublesAreFarApart) {
   for (const double offset : {0x1p30, 0x1p44, 0x1p50}) {
     const Vec3 far = Vec3::Constant(offset);
-    const test::NamedMesh scene{"far off", test::soup(200, 0.3, 2).transformed(1, far), 1.3, far};
-    expect_walks_alike(SphereCluster::build(scene.mesh), scene, 1e-2, 5);
+    const test::NamedMesh named{"far off", test::soup(200, 0.3, 2).transformed(1, far), 1.3, far};
+    expect_walks_alike(SphereCluster::build(named.mesh), named, 1e-2, 5);
   }
 }
 
@@ -82,9 +82,9 @@ TEST(FollowedPoint, IsAnsweredAlikeWhereDoublesAreFarApart) {
 TEST(FollowedPoint, IsAnsweredAlikeWhereMoreIsNearThanIsListed) {
   const test::NamedMesh inside{"inside", test::bumpy_sphere(30, 0, 1), 1e-3};
   const test::NamedMesh equal{"equal", test::repeated(1000), 1};
-  for (const test::NamedMesh& scene : {inside, equal}) {
-    const auto detector = SphereCluster::build(scene.mesh);
-    for (const double step : {0.0, 1e-4, 0.1}) expect_walks_alike(detector, scene, step, 7);
+  for (const test::NamedMesh& named : {inside, equal}) {
+    const auto detector = SphereCluster::build(named.mesh);
+    for (const double step : {0.0, 1e-4, 0.1}) expect_walks_alike(detector, named, step, 7);
   }
 }
 

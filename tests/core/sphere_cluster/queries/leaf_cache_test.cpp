@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/scenes/scenes.h"
+#include "bench/meshes/meshes.h"
 #include "bench/trajectories/trajectories.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 
@@ -66,8 +66,8 @@ struct BothWorks {
   Work goes_on, descends;
 };
 
-BothWorks works_of(const char* scene, const char* motion) {
-  const TriangleMesh mesh = bench::scenes::load_mesh(scene, false);
+BothWorks works_of(const char* name, const char* motion) {
+  const TriangleMesh mesh = bench::meshes::load_mesh(name, false);
   const auto detector = SphereCluster::build(mesh);
   const double reach = 0.005 * mesh.diagonal();
   bench::trajectories::TrajectoryOptions options;

@@ -64,13 +64,13 @@ void expect_brute_force_on_a_walk(const TriangleMesh& mesh, double radius, doubl
 }
 
 TEST(Neighborhood, ChangesNoBitOfContactsAndSweepsAlongAWalk) {
-  for (const test::NamedMesh& scene : test::test_meshes()) {
-    const double size = scene.mesh.diagonal();
+  for (const test::NamedMesh& named : test::test_meshes()) {
+    const double size = named.mesh.diagonal();
     for (const double radius : {0.003, 0.05, 0.4})
       for (const double step : {1e-5, 0.002, 0.1})
         expect_brute_force_on_a_walk(
-            scene.mesh, radius * size, step * size,
-            scene.name + ", radius " + std::to_string(radius) + ", step " + std::to_string(step));
+            named.mesh, radius * size, step * size,
+            named.name + ", radius " + std::to_string(radius) + ", step " + std::to_string(step));
   }
 }
 

@@ -1,0 +1,80 @@
+/// How far a moving ball and a triangle are apart along the way: a convex function, in double with a bound of
+/// what it is off by.
+///
+/// Only differences of coordinates enter, so a far offset costs nothing. With S the largest coordinate
+/// difference from the start to the corners plus the way's largest coordinate, the gap is within 32 u S
+/// surely over the face and within 128 u S elsewhere: docs/exactness.md, E17.
+#pragma once
+
+#include <array>
+
+#include "core/geometry/point_triangle.h"
+#include "core/probe.h"
+
+namespace touchmark {
+
+class PathGap {
+ public:
+  /// Finite coordinates, a radius of at least 0.
+  PathGap(const PreparedTriangle& triangle, const Sweep& sweep) noexcept;
+
+  /// What is known at a fraction of the path. Lengths are in `unit`.
+  struct Sample {
+    double gap;  ///< within `error`
+    double error;
+    double slope;        ///< d gap / d fraction
+    double slope_error;  ///< infinite where nothing is known of it
+    Vec3 offset;         ///< from the foot to the ball's centre
+    bool over_face;      ///< certainly
+    double height;       ///< above the face, below it negative; over it only
+
+    bool surely_falls() const noexcept { return slope + slope_error < 0; }
+    bool surely_rises() const noexcept { return slope - slope_error >= 0; }
+  };
+  Sample at(double fraction) const noexcept;
+
+  /// How steeply the gap falls at most, from there on: it is convex, and no steeper than the path is long.
+  double steepest_fall(const Sample& there) const noexcept {
+    const double fall = there.slope_error - there.slope;
+    return fall < length_ ? fall : length_;
+  }
+  /// Is it known that ball and triangle touch at or before `fraction` + `more`, seen from what was found at
+  /// `fraction`? May say no where they do.
+  bool surely_touches(double fraction, const Sample& there, double more) const noexcept;
+
+  /// Is a plane known that keeps ball and triangle apart from `fraction` to `end`: the one normal to the
+  /// offset found at `fraction`? May say no where there is one. The directions of offsets are off by so much
+  /// that a slope alone does not tell this of a ball that slides along an edge.
+  bool stays_apart(double fraction, const Sample& there, double end) const noexcept;
+
+  double max_error() const noexcept { return error_; }
+  /// A bound on all lengths: finite, and their fourth powers are in range.
+  bool is_defined() const noexcept { return defined_; }
+  double unit() const noexcept { return unit_; }
+  /// The contact there, in the mesh's unit; the position itself is not rounded.
+  Contact contact(double fraction, TriangleId id) const noexcept;
+
+ private:
+  /// Differences of these, times the unit.
+  void measure(const PreparedTriangle& triangle, const Sweep& sweep) noexcept;
+  [[gnu::noinline, gnu::cold]] void measure_in_unit(const PreparedTriangle& triangle,
+                                                    const Sweep& sweep) noexcept;
+  void finish() noexcept;
+
+  const PreparedTriangle& triangle_;
+  std::array<Vec3, 3> start_;  ///< from each corner to the path's start
+  std::array<Vec3, 3> edge_;   ///< from each corner to the next
+  std::array<Vec3, 3> side_;   ///< normal to the face and the edge, inward, as long as the edge
+  std::array<double, 3> squared_edge_;
+  Vec3 path_;
+  double radius_;
+  double size_;  ///< S
+  double length_;
+  double error_;        ///< off the face
+  double face_error_;   ///< over it
+  double apart_error_;  ///< bounds the error of a height above a plane
+  double unit_ = 1;
+  bool defined_ = true;
+};
+
+}  // namespace touchmark
