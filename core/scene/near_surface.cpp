@@ -157,19 +157,15 @@ void NearSurface::remember(const Vec3& point, double distance, const SceneBodies
 
 std::optional<double> NearSurface::start(const Vec3& point, double reach,
                                          const SceneBodies& bodies) noexcept {
-  constexpr std::uint32_t few_served = 4, max_cooldown = 255;
+  constexpr std::uint32_t few_served = 4;
   if (!(remembered_ == SceneState::of(bodies))) return std::nullopt;
-  if (cooldown_ > 0) {
-    --cooldown_;
-    return std::nullopt;
-  }
+  if (backoff_.waits()) return std::nullopt;
   const Vec3 way = point - point_;
   const double step = way.norm();
   const double limit = std::min(reach, upper_ + step), margin = steps_ahead_ * step;
   const double covered = limit + 1.5 * margin;
   if (!(step > 0 && covered < infinity)) return std::nullopt;
-  last_cooldown_ = served_ < few_served ? std::min(2 * last_cooldown_ + 1, max_cooldown) : 0;
-  cooldown_ = last_cooldown_;
+  served_ < few_served ? backoff_.failed() : backoff_.paid();
   // Ahead, so that the point crosses most of what is listed.
   center_ = point + (0.5 * steps_ahead_) * way;
   needed_ = limit + 0.5 * margin;

@@ -16,6 +16,7 @@
 #include "core/scene/scene_bodies.h"
 #include "core/scene/seen_body.h"
 #include "core/search/around.h"
+#include "core/search/memory/backoff.h"
 #include "core/search/memory/epoch.h"
 #include "core/search/memory/last_question.h"
 #include "core/triangle_mesh.h"
@@ -179,8 +180,7 @@ class NearSurface {
   double clearance_ = 0, needed_ = 0;
   double steps_ahead_ = 16;  ///< how far beyond what is asked to list
   std::uint32_t last_ = 0, served_ = 0;
-  std::uint32_t cooldown_ = 0,
-                last_cooldown_ = 0;  ///< queries until the next list, after one that did not serve
+  Backoff<std::uint32_t, 255> backoff_;  ///< lists wait after one that did not serve
   std::uint32_t measured_count_ = 0;
   std::array<Measured, SurfaceList::capacity> measured_;
 };

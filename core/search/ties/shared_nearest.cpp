@@ -48,8 +48,8 @@ bool surely_beside_edge(const PreparedTriangle& a, std::size_t i, std::size_t j,
 /// Is the point surely behind both edges that begin at the corner? Then no point of the triangle is nearer.
 bool surely_off_corner(const PreparedTriangle& t, std::size_t corner, const Vec3& to) noexcept {
   // One unit for each of the two differences, three for the products and sums.
-  constexpr double relative_error = 8 * unit_roundoff;
-  const double to_squared = relative_error * relative_error * to.squaredNorm();
+  constexpr double along_relative_error = 8 * unit_roundoff;
+  const double to_squared = along_relative_error * along_relative_error * to.squaredNorm();
   for (const std::size_t other : {(corner + 1) % 3, (corner + 2) % 3}) {
     const Vec3 edge = t.corner[other] - t.corner[corner];
     if (!surely_exceeds(-to.dot(edge), to_squared * edge.squaredNorm())) return false;
