@@ -37,7 +37,7 @@ constexpr CommandText command_texts[] = {
     {first, "choose", "which detector, with which options, for this part on this machine?"},
     {first, "servo", "a paced loop as a device runs it: does a detector hold the rate?"},
     {first, "mesh", "what a mesh is like, and finer ones: info, measure, subdivide"},
-    {first, "list", "what can be chosen: contestants, scenes, trajectories"},
+    {first, "list", "what can be chosen: contestants, meshes, scenes, trajectories"},
     {answers, "query", "one contestant's answer to every step of a trajectory, as CSV"},
     {answers, "verify", "check contestants' answers against the exact oracle"},
     {answers, "stress", "hard questions of many kinds, every answer against the exact oracle"},

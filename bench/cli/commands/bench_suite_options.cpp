@@ -11,9 +11,9 @@ namespace touchmark::bench::cli {
 void add_suite(CLI::App& command, bool& suite, std::string& cells, std::string& minutes) {
   CLI::Option* const flag = command.add_flag(
       "--suite", suite,
-      "a score over many scenes, motions, speeds, queries and reaches instead; with --mesh on "
+      "a score over many meshes, motions, speeds, queries and reaches instead; with --mesh on "
       "that mesh alone");
-  add_value(command, "--cells", cells, "N", "of the suite: how many a scene, or all; default: 12, quick 2")
+  add_value(command, "--cells", cells, "N", "of the suite: how many a mesh, or all; default: 12, quick 2")
       ->needs(flag);
   add_value(command, "--minutes", minutes, "M",
             "of the suite: what does not fit is left out and said so; default: 15, quick 1.5")

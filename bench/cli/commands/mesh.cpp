@@ -149,7 +149,7 @@ std::string lines_of(const nlohmann::ordered_json& members) {
 }
 
 void add_mesh_options(CLI::App& command, std::string& mesh, bool& normalize) {
-  add_value(command, "--mesh,mesh", mesh, "MESH", "a scene (touchmark list) or a mesh file")->required();
+  add_value(command, "--mesh,mesh", mesh, "MESH", "a mesh by name (touchmark list) or a file")->required();
   command.add_flag("--normalize", normalize, "scale to box diagonal 1 about the origin first");
 }
 

@@ -150,7 +150,7 @@ void add_sizes(CLI::App& command, ManyCommandOptions& options) {
 void add_many(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ManyCommandOptions>();
   CLI::App* command = add_command(program, "many");
-  add_value(*command, "--mesh", options->mesh, "MESH", "a scene (touchmark list) or a mesh file");
+  add_value(*command, "--mesh", options->mesh, "MESH", "a mesh by name (touchmark list) or a file");
   command->add_flag("--normalize", options->normalize, "scale to box diagonal 1 about the origin");
   add_list(*command, "--detector", options->detectors, "D",
            "a contestant that answers nearest (touchmark list); repeatable; default: our fast ones, "

@@ -173,7 +173,7 @@ void add_paper_choi_sung(CLI::App& paper_command, ProgramContext& context) {
   CLI::App* command = paper_command.add_subcommand(
       "choi-sung-2017", "subdivision and sphere clustering: Tables 1 to 3 and what the figures show");
   add_value(*command, "--mesh", options->mesh, "MESH",
-            "level 0: a scene or a mesh file; without it the paper's bunny, or one decimated to its size");
+            "level 0: a mesh by name or a file; without it the paper's bunny, or one decimated to its size");
   add_value(*command, "--levels", options->levels, "N", "of subdivision (3, as in the paper)");
   add_value(*command, "--clustering", options->clustering, "LENGTH",
             "distance: mesh units or % of the box diagonal");

@@ -86,7 +86,7 @@ void add_paper_park_jang(CLI::App& paper_command, ProgramContext& context) {
   CLI::App* command = paper_command.add_subcommand(
       "park-jang-2018", "time against the number of groups, cubes and spheres (Fig. 7)");
   add_list(*command, "--mesh", options->meshes, "MESH",
-           "a scene or a mesh file, repeatable; without it the bunny at several resolutions");
+           "a mesh by name or a file, repeatable; without it the bunny at several resolutions");
   add_value(*command, "--most-groups", options->max_groups, "N", "up to how many groups");
   papers::add_paper_options(*command, options->common);
   command->footer(

@@ -160,7 +160,7 @@ void add_plan(CLI::App& program, ProgramContext& context) {
                               const char* type) {
     add_list(*command, name, values, type, fmt::format("{}; repeatable", what));
   };
-  many("--mesh", options->meshes, "a scene (touchmark list) or a mesh file", "MESH");
+  many("--mesh", options->meshes, "a mesh by name (touchmark list) or a file", "MESH");
   many("--trajectory", options->trajectories, "a name (touchmark list) or a motion file, CSV", "T");
   many("--detector", options->detectors, "a contestant (touchmark list); default: those of bench", "D");
   add_plugins(*command, context, &options->detectors);

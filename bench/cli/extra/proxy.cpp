@@ -198,7 +198,7 @@ void add_proxy(CLI::App& program, ProgramContext& context) {
   add_value(*command, "--detector", options->detector, "D",
             "which of ours answers methods that claim never to cross");
   add_value(*command, "--mesh", options->mesh, "MESH",
-            "instead of families: a scene or a file, with --trajectory");
+            "instead of families: a mesh by name or a file, with --trajectory");
   add_value(
       *command, "--trajectory", options->trajectory, "T",
       "a name (touchmark list) or a motion file: the goals; the proxy starts at the first that is free, or "

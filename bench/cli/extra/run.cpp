@@ -189,7 +189,7 @@ void add_run(CLI::App& program, ProgramContext& context) {
   CLI::App* command = add_command(program, "run");
   add_value(*command, "--manifest", options->manifest, "FILE", "what touchmark plan wrote")->required();
   add_value(*command, "--shard", options->shard, "i/N",
-            "the i-th of N parts; all rivals of a scene are in one part, and timed in one run");
+            "the i-th of N parts; all rivals of a mesh are in one part, and timed in one run");
   add_value(*command, "--out", options->out, "DIR",
             "folder for one file a job; finished ones are not run again")
       ->required();

@@ -173,7 +173,7 @@ int run(const TuneOptions& options) {
 void add_tune(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<TuneOptions>();
   CLI::App* command = add_command(program, "tune");
-  add_value(*command, "--mesh,mesh", options->mesh, "MESH", "a scene (touchmark list) or a mesh file")
+  add_value(*command, "--mesh,mesh", options->mesh, "MESH", "a mesh by name (touchmark list) or a file")
       ->required();
   add_value(*command, "--rate", options->rate, "HZ",
             "queries a second that 99 of 100 must be fast enough for")
