@@ -179,7 +179,7 @@ void add_verify(CLI::App& program, ProgramContext& context) {
   add_markdown(*command, options->reports);
   add_worker_selectors(*command, options->workers);
   command->footer(
-      "Without --mesh: every scene that needs no file, also at an offset of 1e6 and scaled by 1e-6 and 1e6.\n"
+      "Without --mesh: every mesh that needs no file, also at an offset of 1e6 and scaled by 1e-6 and 1e6.\n"
       "With --scene: 200 steps of each trajectory, unless --steps says otherwise; images of triangles are "
       "exact.\n"
       "Exit status 1 if a contestant that claims exactness is wrong, crashes or does not come back; 3 if "
