@@ -1,7 +1,7 @@
 /// Triangles grouped by where they are, so that a query looks at few of them: the fast exact form of the
 /// grid-group detector. The form as published is core/grid_group/published/published_grid_group.h.
 ///
-/// Both forms let the HIP's position name the triangles to look at:
+/// As in the paper, the HIP's position names the triangles to look at:
 /// 1. A sampled distance field rejects what is far (core/search/distance_field/distance_field.h).
 /// 2. The triangle of the tick before, or else an octree of cells each of which names a triangle near its
 ///    middle, gives the triangle to start from (cell_tree.h).

@@ -73,7 +73,7 @@ class PublishedSphereCluster {
   Connectivity connectivity_;
   SphereClusters clusters_;
   double tightness_ = 0;
-  FastLevel fast_;  ///< filled without the precise level, which has the rest
+  FastLevel fast_;  ///< Filled only without the precise level, which uses the members below.
   Aabb bounds_;
   SphereArrays spheres_;
   std::vector<PreparedTriangle> triangles_;  ///< in the order of their spheres
