@@ -14,8 +14,8 @@
 
 namespace touchmark::spheres {
 
-/// What a haptic point remembers between ticks. The lower bound holds with all rounding included; the upper
-/// one is the computed distance of the triangle in `slot`.
+/// What a haptic point remembers between ticks: 10 KB. The lower bound holds with all rounding included; the
+/// upper one is the computed distance of the triangle in `slot`.
 struct PointMemory : LastDistance {
   /// By which the point had moved then; infinite after `touches`, which refills no cache.
   Vec3 move = Vec3::Zero();

@@ -101,7 +101,7 @@ TEST_P(TriangleBounds, HoldAllAroundBehindThePlaneOfAListedTriangle) {
     if (!alone.fits || !alone.frame.covers(c.point)) continue;
     Parts parts;
     parts.blocks.push_back(alone.block);
-    NearTriangles list;
+    PlaneList<64> list;
     Portable::Wide unseen{};
     Portable::add_near(parts, ChildRef{ChildRef::block_bit}, Portable::broadcast(alone.frame.point(c.point)),
                        farthest, unseen, list);

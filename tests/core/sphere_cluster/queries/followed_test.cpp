@@ -114,7 +114,7 @@ TEST(FollowedPoint, LooksAtFewTrianglesWhereItHardlyMoves) {
   detector.nearest({at, 0}, 0.1, followed, work);
   const std::uint64_t first = work.total();
   for (int tick = 0; tick < 10; ++tick) detector.nearest({at += Vec3(1e-5, 0, 0), 0}, 0.1, followed, work);
-  EXPECT_LE(work.total() - first, 10u * SphereCluster::FollowedPoint::capacity);
+  EXPECT_LE(work.total() - first, 10u * decltype(SphereCluster::FollowedPoint::list)::capacity);
 }
 
 }  // namespace
