@@ -1,6 +1,7 @@
 /// What both forms do with a mesh and a cell's edge before they build.
 #pragma once
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -9,10 +10,11 @@
 
 namespace touchmark::grid {
 
-/// Throws std::invalid_argument for an edge that is negative or NaN.
+/// Throws std::invalid_argument for an edge that is negative, infinite or NaN.
 inline void check_cell(double edge) {
-  if (!(edge >= 0))
-    throw std::invalid_argument("grid-group: cell is " + std::to_string(edge) + ", not 0 or more");
+  if (!(edge >= 0 && std::isfinite(edge)))
+    throw std::invalid_argument("grid-group: cell is " + std::to_string(edge) +
+                                ", not a finite number from 0 up");
 }
 
 /// Returns a mesh of the first triangle alone, which stands for all where all corners coincide.

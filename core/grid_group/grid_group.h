@@ -46,7 +46,7 @@ class GridGroup {
     grid::DirectMemory memory;
   };
 
-  /// Throws std::invalid_argument for a negative or NaN cell, a budget below 200, or too many threads.
+  /// Throws std::invalid_argument for a cell below 0 or not finite, a budget below 200, or too many threads.
   static void check(const Options& options);
   /// Throws what `check` does.
   static GridGroup build(const TriangleMesh& mesh, const Options& options);

@@ -44,7 +44,7 @@ class PublishedGridGroup {
     Work work;
   };
 
-  /// Throws std::invalid_argument for a negative or NaN cell.
+  /// Throws std::invalid_argument for a cell below 0 or not finite.
   static PublishedGridGroup build(const TriangleMesh& mesh, const Options& options);
   static PublishedGridGroup build(const TriangleMesh& mesh) { return build(mesh, Options()); }
   /// See the concept Updates. It is built anew.

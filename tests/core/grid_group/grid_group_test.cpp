@@ -182,6 +182,8 @@ std::string refusal(const typename D::Options& options) {
 TEST(GridGroup, RefusesOptionsByName) {
   EXPECT_NE(refusal<GridGroup>({.cell = -1}).find("cell is -1"), std::string::npos);
   EXPECT_NE(refusal<GridGroup>({.cell = std::nan("")}).find("cell is nan"), std::string::npos);
+  EXPECT_NE(refusal<GridGroup>({.cell = infinity}).find("cell is inf"), std::string::npos);
+  EXPECT_NE(refusal<PublishedGridGroup>({.cell = infinity}).find("cell is inf"), std::string::npos);
   EXPECT_NE(refusal<PublishedGridGroup>({.cell = -1}).find("cell is -1"), std::string::npos);
   EXPECT_NE(refusal<PublishedGridGroup>({.cell = std::nan("")}).find("cell is nan"), std::string::npos);
   EXPECT_NE(refusal<GridGroup>({.bytes_per_triangle = 10}).find("bytes_per_triangle is 10"),
