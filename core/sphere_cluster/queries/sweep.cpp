@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/bvh/search.h"
+#include "core/bvh/traversal.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/geometry/sweep_box.h"
 #include "core/search/first_touch.h"
