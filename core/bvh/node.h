@@ -46,17 +46,17 @@ class alignas(64) Children {
   float* row(std::size_t k) noexcept { return numbers_[k]; }
   const float* row(std::size_t k) const noexcept { return numbers_[k]; }
 
-  // The centres.
+  // These are the centres.
   const float* x() const noexcept { return numbers_[0]; }
   const float* y() const noexcept { return numbers_[1]; }
   const float* z() const noexcept { return numbers_[2]; }
-  // Of cylinders.
+  // Only cylinders have these.
   const float* radius() const noexcept { return numbers_[3]; }
   const float* normal_x() const noexcept { return numbers_[4]; }
   const float* normal_y() const noexcept { return numbers_[5]; }
   const float* normal_z() const noexcept { return numbers_[6]; }
   const float* half_height() const noexcept { return numbers_[last]; }
-  // Of boxes: half of their extents.
+  // Only boxes have these, half of their extents.
   const float* half_x() const noexcept { return numbers_[last]; }
   const float* half_y() const noexcept { return numbers_[3]; }
   const float* half_z() const noexcept { return numbers_[4]; }

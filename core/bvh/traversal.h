@@ -144,7 +144,7 @@ TOUCHMARK_END_TARGET
 using Avx2 = Portable;
 #endif
 
-/// Returns what f returns of the kernels of an instruction set.
+/// Calls f with the kernels of an instruction set, and returns what f does.
 template <class F>
 [[gnu::always_inline]] inline auto with_isa(Simd simd, const F& f) noexcept {
   return simd == Simd::portable ? f(Portable{}) : f(Avx2{});

@@ -43,7 +43,7 @@ class SphereCluster {
     }
   };
 
-  /// What is remembered of one of many points, in two cache lines.
+  /// What is remembered of one of many points, in six cache lines.
   using FollowedPoint = spheres::FollowedPoint;
 
   /// Throws std::invalid_argument for a clustering distance that is negative, infinite or not a number, or

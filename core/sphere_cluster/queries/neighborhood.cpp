@@ -120,9 +120,7 @@ void keep_apart(const WideBvh& bvh, const Sweep& sweep, Neighborhood& near, Plac
       list.x[place] = planes.x[k];
       list.y[place] = planes.y[k];
       list.z[place] = planes.z[k];
-      list.bound[place] = planes.height[k] +
-                          (planes.x[k] * shift.x + planes.y[k] * shift.y + planes.z[k] * shift.z) -
-                          shift_error;
+      list.bound[place] = planes.height[k] + shift.along(planes.x[k], planes.y[k], planes.z[k]) - shift_error;
     }
   }
   places.count = left;

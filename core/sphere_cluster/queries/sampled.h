@@ -8,8 +8,9 @@
 
 namespace touchmark::spheres {
 
-/// True if nothing is within reach, by what was sampled. Then that is what is remembered of the point. Uses
-/// the tight bound only if nothing was near the last time: else something still is, as a rule.
+/// True if nothing is within reach, by what was sampled. Then that is what is remembered of the point. The
+/// tight bound is looked up only if the last query found nothing near, since it seldom helps where something
+/// was.
 [[gnu::always_inline]] inline bool rejects_by_distance_field(const WideBvh& bvh, const FilterPoint& point,
                                                              const Vec3& center, double reach,
                                                              PointMemory& memory) noexcept {

@@ -47,8 +47,8 @@ constexpr double max_in_leaf_radii = 0.5, max_product_in_leaf_radii = 0.25;
 /// radius misleads: the path is looked along instead.
 constexpr std::uint64_t middle_budget = 1024;
 
-/// True if contacts were asked for last there. Then that is where a proxy stands, off the surface as a rule,
-/// and what the ball touches at the start is left to the search.
+/// True if the last contacts were asked for at this place. A proxy stands there, off the surface as a rule,
+/// and the search of the path decides what the ball touches at its start.
 bool stands_as_proxy(const Vec3& at, const PointMemory& memory) noexcept {
   return memory.neighborhood.contacts_reach >= 0 && memory.neighborhood.measured_at == at;
 }
