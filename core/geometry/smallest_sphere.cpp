@@ -1,5 +1,6 @@
 #include "core/geometry/smallest_sphere.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -29,8 +30,12 @@ std::optional<Sphere> sphere_through(const Support& support) noexcept {
   const Eigen::Index n = static_cast<Eigen::Index>(support.size) - 1;
   using Edges = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3>;
   Edges edges = Edges::Zero(3, n);  // GCC 14 takes what is set below for unset
-  for (Eigen::Index i = 0; i < n; ++i) edges.col(i) = support.point[static_cast<std::size_t>(i) + 1] - first;
-  const double scale = edges.cwiseAbs().maxCoeff();
+  double scale = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vec3 edge = support.point[static_cast<std::size_t>(i) + 1] - first;
+    edges.col(i) = edge;
+    scale = std::max(scale, edge.cwiseAbs().maxCoeff());
+  }
   if (!(scale > 0)) return std::nullopt;
   edges /= scale;
   // Least squares of minimal norm: the centre stays in the points' hull.
