@@ -43,8 +43,7 @@ auto samplers_of(const WideBvh& bvh) noexcept {
 }  // namespace
 
 WideBvh::WideBvh(const TriangleMesh& mesh, const bvh::Clusters* clusters, const Options& options)
-    : epoch_(Epoch::next()),
-      simd_(std::min({options.widest, Simd::avx2, widest_simd()})),
+    : simd_(std::min({options.widest, Simd::avx2, widest_simd()})),
       searchable_(FilterFrame::fits(mesh.bounds())),
       bounds_(mesh.bounds()),
       lazy_(options.lazy),

@@ -85,7 +85,7 @@ class WideBvh {
   void fill_distances();
   void refill_distances(const bvh::MovedTriangles& moved);
 
-  Epoch epoch_;
+  Epoch epoch_ = Epoch::next();
   Simd simd_ = Simd::portable;
   bool searchable_ = false;  ///< else the mesh does not fit the frame
   Aabb bounds_;
