@@ -14,25 +14,13 @@
 #include "bench/contestants/contestant.h"
 #include "bench/contestants/storage_rounding.h"
 #include "bench/support/available_memory.h"
+#include "core/named/option.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::contestants {
 
-enum class OptionKind {
-  choice,
-  number,  ///< 0 or more
-  count,   ///< a whole number of 0 or more
-  length   ///< 0 or more, in mesh units or in percent of the mesh's box diagonal
-};
-
-struct OptionInfo {
-  std::string key;
-  OptionKind kind = OptionKind::choice;
-  std::vector<std::string> choices;  ///< what a choice may be
-  std::string default_value;
-  std::string summary;    ///< one line
-  std::string code = {};  ///< sets it in a member of the detector's Options: "cell = {}"; empty: no such one
-};
+using named::OptionInfo;
+using named::OptionKind;
 
 /// Every option of a contestant with its value, checked against its OptionInfo.
 class OptionValues {

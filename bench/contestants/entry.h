@@ -7,7 +7,6 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -17,7 +16,7 @@
 #include "bench/contestants/contestant_info.h"
 #include "bench/contestants/contestant_of.h"
 #include "bench/meshes/displaced.h"
-#include "core/search/threads/parallel.h"
+#include "core/named/detector_options.h"
 #include "core/sign/signed_detector.h"
 
 namespace touchmark::bench::contestants {
@@ -31,7 +30,8 @@ std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename 
 inline const char* const side_key = "side";
 
 inline OptionInfo side_option() {
-  return {side_key, OptionKind::choice, {"off", "on"}, "off", "on: contacts tell inside from outside"};
+  bool side = false;
+  return named::side_option(side);
 }
 
 inline bool asks_for_side(const OptionValues& values) {
@@ -103,16 +103,6 @@ std::unique_ptr<Contestant> prepared_contestant(
                                 : contestant<D>(mesh, options, values, remark_on);
 }
 
-/// Returns how many threads are to build it. Throws std::invalid_argument for more than there may be.
-inline unsigned threads_of(const OptionValues& values) {
-  const std::size_t threads = values.count("threads");
-  if (threads > max_threads) {
-    throw std::invalid_argument("threads is " + std::to_string(threads) + ", more than " +
-                                std::to_string(max_threads));
-  }
-  return static_cast<unsigned>(threads);
-}
-
 /// A choice's names with what they stand for. The first one is the default.
 template <class Value>
 using Names = std::vector<std::pair<std::string, Value>>;
@@ -133,33 +123,11 @@ Value chosen(const OptionValues& values, const std::string& key, const Names<Val
   return names.front().second;
 }
 
-/// Returns the option with the code that sets it: "MEMBER = {}", or "MEMBER = TYPE::{}" for an enumeration.
-inline OptionInfo in_code(OptionInfo option, const std::string& member, const std::string& type = "") {
-  option.code = member + " = " + (type.empty() ? "" : type + "::") + "{}";
-  return option;
-}
-
 /// Returns a class that any options choose.
 inline std::function<LibraryClass(const OptionValues&)> library_class(const char* header, const char* name) {
   return [=](const OptionValues&) { return LibraryClass{header, name}; };
 }
 
 inline const Names<bool> yes_or_no{{"true", true}, {"false", false}};
-inline const Names<bool> no_or_yes{{"false", false}, {"true", true}};
-
-inline OptionInfo threads_option() {
-  return in_code({"threads",
-                  OptionKind::count,
-                  {},
-                  "1",
-                  "threads that build it, 256 at most; 0: one a processor; the same bits with any number"},
-                 "threads");
-}
-
-inline OptionInfo certified_option() {
-  return in_code(
-      choice("certified", yes_or_no, "false: contact as doubles have it, to measure what certainty costs"),
-      "certified");
-}
 
 }  // namespace touchmark::bench::contestants

@@ -21,15 +21,15 @@ static void from_json(const nlohmann::json& json, Accuracy& accuracy) {
   accuracy = {json.at(0), number(1), number(2), json.at(3), json.at(4)};
 }
 
+namespace named {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OptionInfo, key, kind, choices, default_value, summary)
+}  // namespace named
+
 namespace bench {
 
 namespace workload {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepRange, begin, end)
 }  // namespace workload
-
-namespace contestants {
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OptionInfo, key, kind, choices, default_value, summary)
-}  // namespace contestants
 
 namespace meshes {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Deformation, share, seed)

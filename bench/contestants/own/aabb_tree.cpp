@@ -1,10 +1,9 @@
 #include "core/aabb_tree/aabb_tree.h"
 
-#include <cstddef>
 #include <optional>
 #include <stdexcept>
 
-#include "bench/contestants/entry.h"
+#include "bench/contestants/own_options.h"
 #include "bench/contestants/own_scene.h"
 #include "core/aabb_tree/float_tree.h"
 
@@ -19,31 +18,22 @@ ContestantInfo aabb_tree_entry() {
   info.summary = "a plain binary tree of boxes: the reference";
   info.accuracy = "exact; precision=float: approximate";
   info.queries = queries_of<AabbTree>();
-  info.options = {
-      in_code({"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"}, "leaf_size"),
-      choice("precision", precisions,
-             "float: mesh, boxes, kernel and distances in single precision; touches and nearest, "
-             "no side, nothing certified"),
-      certified_option(),
-      threads_option(),
-      updated_option(),
-      side_option()};
+  info.options = options_with<AabbTree::Options>(
+      {{"leaf_size",
+        choice("precision", precisions,
+               "float: mesh, boxes, kernel and distances in single precision; touches and nearest, "
+               "no side, nothing certified")},
+       {"threads", updated_option()}});
   info.build = [=](const TriangleMesh& mesh, const OptionValues& values) {
-    const std::size_t leaf_size = values.count("leaf_size");
-    const unsigned threads = threads_of(values);
-    if (in_floats(values)) {
-      if (asks_for_side(values)) throw std::invalid_argument("aabb-tree: precision=float tells no side");
-      return contestant<FloatTree>(mesh, {leaf_size, threads});
-    }
-    return contestant<AabbTree>(mesh, {leaf_size, chosen(values, "certified", yes_or_no), threads}, values);
+    const auto options = form_of<AabbTree::Options>(mesh, values);
+    if (!in_floats(values)) return contestant<AabbTree>(mesh, options, values);
+    if (asks_for_side(values)) throw std::invalid_argument("aabb-tree: precision=float tells no side");
+    return contestant<FloatTree>(mesh, {options.leaf_size, options.threads});
   };
   info.build_scene = [=](const scenes::PlacedScene& scene, const OptionValues& values) {
     if (in_floats(values))
       throw std::invalid_argument("precision=float is of one mesh, not of a scene of bodies");
-    return build_own_scene<AabbTree>([](const TriangleMesh&, const OptionValues& chosen_values) {
-      return AabbTree::Options{chosen_values.count("leaf_size"),
-                               chosen(chosen_values, "certified", yes_or_no)};
-    })(scene, values);
+    return build_own_scene<AabbTree>(&form_of<AabbTree::Options>)(scene, values);
   };
   info.storage_rounding = [=](const TriangleMesh& mesh,
                               const OptionValues& values) -> std::optional<StorageRounding> {

@@ -1,6 +1,6 @@
 #include "core/brute_force/brute_force.h"
 
-#include "bench/contestants/entry.h"
+#include "bench/contestants/own_options.h"
 #include "bench/contestants/own_scene.h"
 
 namespace touchmark::bench::contestants {
@@ -12,7 +12,7 @@ ContestantInfo brute_force_entry() {
   info.summary = "every triangle, every time: both papers' \"without grouping\"";
   info.accuracy = "exact";
   info.queries = queries_of<BruteForce>();
-  info.options = {side_option()};
+  info.options = options_with<BruteForce::Options>({});
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     return contestant<BruteForce>(mesh, {}, values);
   };

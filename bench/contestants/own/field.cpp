@@ -1,31 +1,41 @@
-#include "bench/contestants/entry.h"
+#include "bench/contestants/own_options.h"
 #include "core/field/certified_field.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 
 namespace touchmark::bench::contestants {
 
+namespace {
+
+using Field = CertifiedField<SphereCluster>;
+
+std::vector<named::Option> options_of(Field::Options& options) {
+  return {
+      named::length("error", options.error, "no answer is off by more", "1%").in_code("error"),
+      named::length("band", options.band, "farther from the mesh sphere-cluster answers", "5%")
+          .in_code("band"),
+      named::choice<bool>("answers", options.refines, {{"field", false}, {"exact", true}},
+                          "field: from memory alone; exact: sphere-cluster's, of what may be within reach")
+          .in_code("refines"),
+      named::threads_option(options.threads)};
+}
+
+}  // namespace
+
 ContestantInfo field_entry() {
-  using Field = CertifiedField<SphereCluster>;
-  static const Names<bool> answers{{"field", false}, {"exact", true}};
+  Field::Options defaults;
+  const std::vector<named::Option> table = options_of(defaults);
   ContestantInfo info;
   info.name = "field";
   info.rank = 45;
   info.summary = "a sampled distance field whose error is proved, over sphere-cluster";
   info.accuracy = "approximate; answers=exact: exact";
   info.queries = queries_of<Field>();
-  info.options = {
-      in_code({"error", OptionKind::length, {}, "1%", "no answer is off by more"}, "error"),
-      in_code({"band", OptionKind::length, {}, "5%", "farther from the mesh sphere-cluster answers"}, "band"),
-      in_code(choice("answers", answers,
-                     "field: from memory alone; exact: sphere-cluster's, of what may be within reach"),
-              "refines"),
-      threads_option(), side_option()};
+  info.options.assign(table.begin(), table.end());
+  info.options.push_back(side_option());
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     Field::Options options;
-    options.error = values.length("error", mesh);
-    options.band = values.length("band", mesh);
-    options.refines = chosen(values, "answers", answers);
-    options.threads = options.exact.threads = threads_of(values);
+    set_options(options_of(options), values, mesh);
+    options.exact.threads = options.threads;
     return contestant<Field>(mesh, options, values);
   };
   info.forms = {

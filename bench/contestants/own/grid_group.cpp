@@ -1,80 +1,20 @@
 #include "core/grid_group/grid_group.h"
 
-#include <cstddef>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "bench/contestants/entry.h"
+#include "bench/contestants/own_options.h"
 #include "bench/contestants/own_scene.h"
 #include "core/grid_group/published/published_grid_group.h"
-#include "core/named/published_form.h"
 
 namespace touchmark::bench::contestants {
 
 namespace {
 
-const Names<bool>& lookups() {
-  static const Names<bool> names{{"direct", false}, {"scan", true}};
-  return names;
-}
-const Names<GridGroup::Construction>& constructions() {
-  static const Names<GridGroup::Construction> names{{"whole", GridGroup::Construction::whole},
-                                                    {"lazy", GridGroup::Construction::lazy}};
-  return names;
-}
-const Names<PublishedGridGroup::Shape>& shapes() {
-  using Shape = PublishedGridGroup::Shape;
-  static const Names<Shape> names{
-      {"cube", Shape::cube}, {"sphere", Shape::sphere}, {"centered-sphere", Shape::centered_sphere}};
-  return names;
-}
+using named::GridGroupForm;
 
-std::vector<OptionInfo> options() {
-  return {
-      choice("lookup", lookups(), "direct: the probe's own cell; scan: every group, as published"),
-      in_code(choice("shape", shapes(),
-                     "of the groups; scan only; sphere: the smallest; centered-sphere: about the cuboid's "
-                     "centre"),
-              "shape", "PublishedGridGroup::Shape"),
-      in_code({"cell",
-               OptionKind::length,
-               {},
-               "0",
-               "edge of a cell, direct: of the smallest; larger where memory is short; 0: choose"},
-              "cell"),
-      in_code({"groups", OptionKind::count, {}, "0", "scan with cell=0: aim at so many groups; 0: choose"},
-              "groups"),
-      in_code({"bytes_per_triangle", OptionKind::number, {}, "400", "direct: what the structure may take"},
-              "bytes_per_triangle"),
-      certified_option(),
-      in_code(choice("build", constructions(),
-                     "lazy: groups and cells are made by the first queries that want them"),
-              "construction", "GridGroup::Construction"),
-      choice("prepare", no_or_yes,
-             "true: ask the last question again before each query, clocked apart; direct"),
-      threads_option(),
-      updated_option(),
-      side_option()};
-}
-
-GridGroup::Options options_of(const TriangleMesh& mesh, const OptionValues& values) {
-  GridGroup::Options options;
-  options.cell = values.length("cell", mesh);
-  options.bytes_per_triangle = values.number("bytes_per_triangle");
-  options.certified = chosen(values, "certified", yes_or_no);
-  options.construction = chosen(values, "build", constructions());
-  options.threads = threads_of(values);
-  return options;
-}
-
-bool is_published(const OptionValues& values) { return chosen(values, "lookup", lookups()); }
-
-PublishedGridGroup::Options published_options_of(const TriangleMesh& mesh, const OptionValues& values) {
-  named::expect_published(options_of(mesh, values));
-  return {chosen(values, "shape", shapes()), values.length("cell", mesh), values.count("groups")};
-}
+bool is_published(const OptionValues& values) { return values.text("lookup") == "scan"; }
 
 /// Remarks where cells or groups are fewer than asked for, to keep within memory.
 template <class D>
@@ -102,14 +42,19 @@ ContestantInfo grid_group_entry() {
   info.summary = "triangles grouped by uniform cells, after Park & Jang 2018";
   info.accuracy = "exact";
   info.queries = queries_of<GridGroup>();
-  info.options = options();
+  info.options = options_with<GridGroupForm>(
+      {{"build",
+        prepare_option("true: ask the last question again before each query, clocked apart; direct")},
+       {"threads", updated_option()}});
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    return is_published(values) ? build<PublishedGridGroup>(mesh, published_options_of(mesh, values), values)
-                                : build<GridGroup>(mesh, options_of(mesh, values), values);
+    const auto form = form_of<GridGroupForm>(mesh, values);
+    return form.is_published ? build<PublishedGridGroup>(mesh, form.published_options(), values)
+                             : build<GridGroup>(mesh, form.fast, values);
   };
   info.build_scene = [](const scenes::PlacedScene& placed, const OptionValues& values) {
-    return is_published(values) ? build_own_scene<PublishedGridGroup>(&published_options_of)(placed, values)
-                                : build_own_scene<GridGroup>(&options_of)(placed, values);
+    return is_published(values)
+               ? build_own_scene<PublishedGridGroup>(published_options_of<GridGroupForm>)(placed, values)
+               : build_own_scene<GridGroup>(fast_options_of<GridGroupForm>)(placed, values);
   };
   info.bytes_per_triangle = [](const OptionValues& values) {
     return is_published(values) ? support::min_bytes_per_triangle : values.number("bytes_per_triangle");
