@@ -1,5 +1,5 @@
 #include "bench/cli/extra/extra_commands.h"
-#include "bench/contestants/roster.h"
+#include "bench/contestants/built_in.h"
 
 int main(int argc, char** argv) {
   namespace bench = touchmark::bench;

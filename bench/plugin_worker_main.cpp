@@ -1,7 +1,8 @@
 /// The worker program for plug-ins. It is linked with no detector, so that whatever a plug-in brings with it,
 /// another version of a rival perhaps, meets nothing of its kind.
-#include "bench/contestants/plugin_kind.h"
-#include "bench/support/own_time.h"
+#include "bench/contestants/plugins/plugin_kind.h"
+#include "bench/contestants/roster.h"
+#include "bench/support/system/own_time.h"
 #include "bench/workers/worker.h"
 
 int main(int argc, char** argv) {

@@ -17,7 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/meshes/mesh_lists.h"
-#include "bench/support/raw_lists.h"
+#include "bench/support/files/raw_lists.h"
 #include "core/named/named_detector.h"
 #include "core/search/tracing.h"
 

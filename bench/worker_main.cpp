@@ -1,5 +1,5 @@
 /// A worker program. Which baselines it can run is a matter of what it is linked with.
-#include "bench/contestants/roster.h"
+#include "bench/contestants/built_in.h"
 #include "bench/workers/worker.h"
 
 int main(int argc, char** argv) {

@@ -16,8 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "bench/contestants/built_in.h"
 #include "bench/contestants/contestant_of.h"
-#include "bench/contestants/roster.h"
 #include "bench/oracle/judge.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/conformance_meshes.h"

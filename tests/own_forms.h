@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/contestants/built_in.h"
 #include "bench/contestants/contestant.h"
-#include "bench/contestants/roster.h"
 
 namespace touchmark {
 

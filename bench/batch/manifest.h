@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/contestants/roster.h"
 #include "bench/contestants/selectors.h"
 #include "bench/measurement/effort.h"
 #include "bench/workload/workload.h"

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/support/numbers.h"
-#include "bench/workers/throughput.h"
+#include "bench/workers/timing/throughput.h"
 
 namespace touchmark::bench::cli {
 namespace {

@@ -14,11 +14,11 @@
 #include <unistd.h>
 
 #include "bench/results/build_info.h"
-#include "bench/support/beside_this_program.h"
 #include "bench/support/did_you_mean.h"
-#include "bench/support/standard_descriptors.h"
-#include "bench/support/standard_output.h"
-#include "bench/support/system_limit.h"
+#include "bench/support/files/standard_descriptors.h"
+#include "bench/support/files/standard_output.h"
+#include "bench/support/system/beside_this_program.h"
+#include "bench/support/system/system_limit.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::cli {

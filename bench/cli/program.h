@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 #include "bench/support/failures.h"
 
 namespace CLI {

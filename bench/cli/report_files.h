@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "bench/support/atomic_file.h"
+#include "bench/support/files/atomic_file.h"
 
 namespace CLI {
 class App;

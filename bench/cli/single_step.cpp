@@ -10,8 +10,8 @@
 
 #include "bench/contestants/entry.h"
 #include "bench/results/answer_rows.h"
-#include "bench/support/available_memory.h"
 #include "bench/support/failures.h"
+#include "bench/support/system/available_memory.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::cli {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "bench/contestants/roster.h"
 #include "bench/workers/contestant_process.h"
 #include "bench/workload/workload.h"
 

@@ -8,7 +8,7 @@
 #include "bench/measurement/comparison.h"
 #include "bench/measurement/result_row.h"
 #include "bench/results/results_folder.h"
-#include "bench/support/atomic_file.h"
+#include "bench/support/files/atomic_file.h"
 #include "bench/workload/workload.h"
 
 namespace touchmark::bench::cli {

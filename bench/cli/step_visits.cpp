@@ -11,10 +11,10 @@
 #include <unistd.h>
 
 #include "bench/meshes/mesh_lists.h"
-#include "bench/support/beside_this_program.h"
 #include "bench/support/failures.h"
-#include "bench/support/raw_lists.h"
-#include "bench/support/temporary_file.h"
+#include "bench/support/files/raw_lists.h"
+#include "bench/support/files/temporary_file.h"
+#include "bench/support/system/beside_this_program.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::cli {

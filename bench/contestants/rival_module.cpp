@@ -5,7 +5,7 @@
 
 #include <dlfcn.h>
 
-#include "bench/support/beside_this_program.h"
+#include "bench/support/system/beside_this_program.h"
 
 namespace touchmark::bench::contestants {
 

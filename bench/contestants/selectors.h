@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 #include "bench/support/length_unit.h"
 #include "bench/workload/selection.h"
 #include "core/triangle_mesh.h"

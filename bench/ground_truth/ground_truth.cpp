@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "bench/support/interrupt.h"
+#include "bench/support/system/interrupt.h"
 #include "bench/workload/sample_steps.h"
 
 namespace touchmark::bench::ground_truth {

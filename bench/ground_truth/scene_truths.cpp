@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "bench/oracle/judge.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/system/interrupt.h"
 
 namespace touchmark::bench::ground_truth {
 

@@ -8,12 +8,12 @@
 
 #include "bench/ground_truth/ground_truth.h"
 #include "bench/measurement/measurement.h"
-#include "bench/support/available_memory.h"
 #include "bench/support/interleaving.h"
-#include "bench/support/interrupt.h"
 #include "bench/support/random.h"
-#include "bench/workers/cold_replay.h"
+#include "bench/support/system/available_memory.h"
+#include "bench/support/system/interrupt.h"
 #include "bench/workers/shared_workload.h"
+#include "bench/workers/timing/cold_replay.h"
 
 namespace touchmark::bench::measurement {
 namespace {

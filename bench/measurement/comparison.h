@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 #include "bench/ground_truth/ground_truth.h"
 #include "bench/ground_truth/rounded_mesh.h"
 #include "bench/ground_truth/workload_truths.h"

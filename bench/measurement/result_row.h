@@ -17,7 +17,7 @@
 #include "bench/measurement/step_log.h"
 #include "bench/oracle/judge.h"
 #include "bench/support/shell_word.h"
-#include "bench/workers/cache_lines.h"
+#include "bench/workers/timing/cache_lines.h"
 #include "bench/workload/answer.h"
 #include "core/detector.h"
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bench/meshes/mesh_lists.h"
-#include "bench/support/own_process.h"
-#include "bench/support/raw_lists.h"
+#include "bench/support/files/raw_lists.h"
+#include "bench/support/system/own_process.h"
 #include "core/mesh_io_assimp/mesh_io_assimp.h"
 
 namespace touchmark::bench::meshes {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/support/raw_lists.h"
+#include "bench/support/files/raw_lists.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::meshes {

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/support/atomic_file.h"
+#include "bench/support/files/atomic_file.h"
 #include "core/geometry/point_triangle.h"
 
 namespace touchmark::bench::meshes {

@@ -13,9 +13,9 @@
 
 #include "bench/meshes/generated_meshes.h"
 #include "bench/meshes/sized_meshes.h"
-#include "bench/support/available_memory.h"
 #include "bench/support/did_you_mean.h"
 #include "bench/support/numbers.h"
+#include "bench/support/system/available_memory.h"
 
 namespace touchmark::bench::meshes {
 namespace {

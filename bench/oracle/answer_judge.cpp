@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "bench/oracle/exact/interval_distance.h"
 #include "bench/oracle/float_limits.h"
-#include "bench/oracle/interval_distance.h"
 
 namespace touchmark::bench::oracle {
 namespace {

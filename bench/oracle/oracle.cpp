@@ -6,10 +6,10 @@
 #include <mutex>
 #include <thread>
 
-#include "bench/oracle/exact_distance.h"
-#include "bench/oracle/exact_winding.h"
+#include "bench/oracle/exact/exact_distance.h"
+#include "bench/oracle/exact/exact_winding.h"
+#include "bench/oracle/exact/interval_distance.h"
 #include "bench/oracle/float_limits.h"
-#include "bench/oracle/interval_distance.h"
 #include "bench/oracle/parallel.h"
 #include "bench/oracle/triangle_tree.h"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "bench/oracle/interval_distance.h"
+#include "bench/oracle/exact/interval_distance.h"
 #include "bench/oracle/triangle.h"
 
 namespace touchmark::bench::oracle {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <compare>
 
-#include "bench/oracle/exact_distance.h"
+#include "bench/oracle/exact/exact_distance.h"
 #include "bench/oracle/placed_bounds.h"
 
 namespace touchmark::bench::oracle {

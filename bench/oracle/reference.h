@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/oracle/interval_distance.h"
+#include "bench/oracle/exact/interval_distance.h"
 #include "bench/oracle/triangle_tree.h"
 #include "bench/workload/answer.h"
 #include "core/probe.h"

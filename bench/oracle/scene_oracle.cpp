@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "bench/oracle/exact_distance.h"
+#include "bench/oracle/exact/exact_distance.h"
 #include "bench/oracle/float_limits.h"
 #include "bench/oracle/placed_bounds.h"
 #include "bench/oracle/placed_surface.h"

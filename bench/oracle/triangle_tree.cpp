@@ -4,8 +4,8 @@
 #include <future>
 #include <limits>
 
+#include "bench/oracle/exact/interval_distance.h"
 #include "bench/oracle/float_limits.h"
-#include "bench/oracle/interval_distance.h"
 
 namespace touchmark::bench::oracle {
 namespace {

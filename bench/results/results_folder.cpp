@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "bench/support/atomic_file.h"
 #include "bench/support/failures.h"
+#include "bench/support/files/atomic_file.h"
 
 namespace touchmark::bench::results {
 

@@ -12,7 +12,7 @@
 
 #include "bench/meshes/drawn_mesh.h"
 #include "bench/results/steps_surroundings.h"
-#include "bench/support/packed_blocks.h"
+#include "bench/support/files/packed_blocks.h"
 #include "bench/workload/query_name.h"
 #include "bench/workload/sample_steps.h"
 

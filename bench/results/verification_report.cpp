@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "bench/support/available_memory.h"
 #include "bench/support/failures.h"
 #include "bench/support/grouping.h"
+#include "bench/support/system/available_memory.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::results {

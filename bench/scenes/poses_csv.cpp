@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "bench/support/available_memory.h"
-#include "bench/support/csv_reader.h"
 #include "bench/support/did_you_mean.h"
+#include "bench/support/files/csv_reader.h"
+#include "bench/support/system/available_memory.h"
 #include "bench/trajectories/motion_field.h"
 
 namespace touchmark::bench::scenes {

@@ -15,8 +15,8 @@
 #include "bench/meshes/meshes.h"
 #include "bench/scenes/primitives.h"
 #include "bench/support/did_you_mean.h"
-#include "bench/support/text_file.h"
-#include "core/scene/primitives.h"
+#include "bench/support/files/text_file.h"
+#include "core/scene/round/primitives.h"
 
 namespace touchmark::bench::scenes {
 namespace {

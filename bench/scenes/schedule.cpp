@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/support/available_memory.h"
+#include "bench/support/system/available_memory.h"
 
 namespace touchmark::bench::scenes {
 

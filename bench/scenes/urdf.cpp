@@ -19,8 +19,8 @@
 #include "bench/meshes/mesh_import.h"
 #include "bench/meshes/surface_builder.h"
 #include "bench/scenes/primitives.h"
-#include "bench/support/text_file.h"
-#include "core/scene/primitives.h"
+#include "bench/support/files/text_file.h"
+#include "core/scene/round/primitives.h"
 
 namespace touchmark::bench::scenes {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/support/csv_reader.h"
+#include "bench/support/files/csv_reader.h"
 #include "bench/trajectories/motion_options.h"
 
 namespace touchmark::bench::trajectories {

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "bench/support/csv_dialect.h"
-#include "bench/support/csv_reader.h"
+#include "bench/support/files/csv_dialect.h"
+#include "bench/support/files/csv_reader.h"
 
 namespace touchmark::bench::trajectories {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/support/csv_reader.h"
+#include "bench/support/files/csv_reader.h"
 #include "bench/trajectories/motion_columns.h"
 
 namespace touchmark::bench::trajectories {

@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/support/available_memory.h"
-#include "bench/support/csv_reader.h"
+#include "bench/support/files/csv_reader.h"
+#include "bench/support/system/available_memory.h"
 #include "bench/trajectories/motion_columns.h"
 #include "bench/trajectories/motion_field.h"
 #include "bench/trajectories/resampling.h"

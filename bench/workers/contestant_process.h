@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "bench/contestants/contestant_info.h"
-#include "bench/workers/cache_lines.h"
 #include "bench/workers/shared_workload.h"
+#include "bench/workers/timing/cache_lines.h"
 #include "bench/workers/worker_process.h"
 #include "bench/workers/worker_protocol.h"
 #include "bench/workload/workload.h"

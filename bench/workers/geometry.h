@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 #include "bench/workers/shapes_near.h"
 #include "bench/workers/shared_workload.h"
 

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "bench/contestants/plugin_kind.h"
+#include "bench/contestants/plugins/plugin_kind.h"
 #include "bench/workers/shared_memory.h"
 #include "bench/workers/worker_process.h"
 

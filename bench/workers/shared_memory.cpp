@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "bench/support/failures.h"
-#include "bench/support/system_limit.h"
+#include "bench/support/system/system_limit.h"
 
 namespace touchmark::bench::workers {
 namespace {

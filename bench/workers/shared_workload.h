@@ -10,8 +10,8 @@
 
 #include "bench/contestants/contestant.h"
 #include "bench/scenes/schedule.h"
-#include "bench/workers/paced_replay.h"
 #include "bench/workers/shared_memory.h"
+#include "bench/workers/timing/paced_replay.h"
 #include "bench/workload/answer.h"
 #include "bench/workload/workload.h"
 #include "core/triangle_mesh.h"

@@ -2,7 +2,7 @@
 /// worker_protocol.h.
 #pragma once
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 #include "bench/workers/worker_roster.h"
 
 namespace touchmark::bench::workers {

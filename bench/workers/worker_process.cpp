@@ -18,10 +18,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "bench/support/beside_this_program.h"
 #include "bench/support/failures.h"
-#include "bench/support/interrupt.h"
-#include "bench/support/system_limit.h"
+#include "bench/support/system/beside_this_program.h"
+#include "bench/support/system/interrupt.h"
+#include "bench/support/system/system_limit.h"
 
 namespace touchmark::bench::workers {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 #include "bench/workers/worker_protocol.h"
 
 namespace touchmark::bench::workers {

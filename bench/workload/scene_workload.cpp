@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/support/available_memory.h"
+#include "bench/support/system/available_memory.h"
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/trace.h"
 #include "bench/workload/workload.h"

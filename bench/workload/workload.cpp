@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/support/available_memory.h"
 #include "bench/support/progress.h"
+#include "bench/support/system/available_memory.h"
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/query_name.h"
 #include "bench/workload/trace.h"

@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
+#include "core/mesh_io/dae/read_dae.h"
+#include "core/mesh_io/gltf/read_gltf.h"
 #include "core/mesh_io/load.h"
-#include "core/mesh_io/mesh_file.h"
-#include "core/mesh_io/read_dae.h"
-#include "core/mesh_io/read_gltf.h"
+#include "core/mesh_io/mesh_builder.h"
 #include "core/mesh_io/readers.h"
 
 namespace touchmark {

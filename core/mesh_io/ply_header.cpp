@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "core/mesh_io/mesh_file.h"
+#include "core/mesh_io/mesh_builder.h"
 
 namespace touchmark::mesh_io::ply {
 namespace {

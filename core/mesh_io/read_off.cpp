@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/mesh_io/mesh_file.h"
+#include "core/mesh_io/mesh_builder.h"
 #include "core/mesh_io/readers.h"
 
 namespace touchmark::mesh_io {

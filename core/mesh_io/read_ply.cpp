@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/mesh_io/mesh_file.h"
+#include "core/mesh_io/mesh_builder.h"
 #include "core/mesh_io/ply_header.h"
 #include "core/mesh_io/readers.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "core/mesh_io/mesh_file.h"
+#include "core/mesh_io/mesh_builder.h"
 #include "core/mesh_io/readers.h"
 
 namespace touchmark::mesh_io {

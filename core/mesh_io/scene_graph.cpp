@@ -8,7 +8,7 @@
 
 #include <Eigen/LU>
 
-#include "core/mesh_io/mesh_file.h"
+#include "core/mesh_io/mesh_builder.h"
 
 namespace touchmark::mesh_io {
 namespace {

@@ -41,7 +41,7 @@ std::vector<Option> options_of(AabbTree::Options& options);
 std::vector<Option> options_of(GridGroupForm& form);
 std::vector<Option> options_of(SphereClusterForm& form);
 Option side_option(bool& side);
-/// Of how many threads build.
+/// Sets how many threads build it.
 Option threads_option(unsigned& threads);
 
 }  // namespace touchmark::named

@@ -46,7 +46,7 @@ Option count(std::string key, unsigned& member, std::string summary);
 /// `default_value` is the text of a default in percent, which the member cannot hold.
 Option length(std::string key, double& member, std::string summary, std::string default_value = "0");
 
-/// Of names that mean the same, the first is the default.
+/// The default is the first name of what the member holds.
 template <class Value>
 Option choice(std::string key, Value& member, std::vector<std::pair<std::string, Value>> names,
               std::string summary) {

@@ -1,6 +1,5 @@
 #include "core/named/option_text.h"
 
-#include <algorithm>
 #include <map>
 #include <stdexcept>
 

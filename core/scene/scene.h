@@ -17,7 +17,7 @@
 #include "core/scene/near_bodies.h"
 #include "core/scene/near_surface.h"
 #include "core/scene/pose.h"
-#include "core/scene/round_body.h"
+#include "core/scene/round/round_body.h"
 #include "core/scene/scene_bodies.h"
 #include "core/scene/shape.h"
 #include "core/scene/shape_table.h"

@@ -10,11 +10,11 @@
 
 #include "core/aabb.h"
 #include "core/scene/body.h"
-#include "core/scene/body_tree.h"
+#include "core/scene/body_tree/body_tree.h"
 #include "core/scene/pose.h"
 #include "core/scene/pose_change.h"
+#include "core/scene/round/support_table.h"
 #include "core/scene/seen_body.h"
-#include "core/scene/support_table.h"
 #include "core/search/memory/epoch.h"
 #include "core/simd/dispatch.h"
 

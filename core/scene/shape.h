@@ -11,7 +11,7 @@
 #include "core/aabb.h"
 #include "core/detector.h"
 #include "core/scene/pose.h"
-#include "core/scene/primitives.h"
+#include "core/scene/round/primitives.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark {

@@ -12,7 +12,7 @@
 
 #include "core/detector.h"
 #include "core/scene/body.h"
-#include "core/scene/round_body.h"
+#include "core/scene/round/round_body.h"
 #include "core/scene/shape.h"
 
 namespace touchmark {

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/oracle/exact_distance.h"
+#include "bench/oracle/exact/exact_distance.h"
 #include "bench/oracle/oracle.h"
 #include "core/aabb.h"
 #include "core/aabb_tree/aabb_tree.h"

@@ -1,4 +1,4 @@
-#include "core/mesh_io/read_gltf.h"
+#include "core/mesh_io/gltf/read_gltf.h"
 #include "tests/fuzz/graph_target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -33,7 +33,7 @@ DAMAGED = [  # path to a member, and what stands there instead; None: nothing
 @unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
 class RunSchema(unittest.TestCase):
     def setUp(self):
-        self.schema = json.loads((ROOT / "results" / "run.schema.json").read_text(encoding="utf-8"))
+        self.schema = json.loads((ROOT / "bench/results/schemas/run.schema.json").read_text(encoding="utf-8"))
         self.validator = jsonschema.Draft7Validator(self.schema)
 
     def accepted_by_program(self, run):
@@ -94,7 +94,7 @@ class RunSchema(unittest.TestCase):
 @unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
 class VisitedSchema(unittest.TestCase):
     def test_accepts_what_the_program_writes(self):
-        schema = json.loads((ROOT / "results" / "visited.schema.json").read_text(encoding="utf-8"))
+        schema = json.loads((ROOT / "bench/results/schemas/visited.schema.json").read_text(encoding="utf-8"))
         jsonschema.Draft7Validator.check_schema(schema)
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([PROGRAM, "bench", "--mesh", "icosphere:1", "--quick", "--steps", "40", "--trajectory", "slide",

@@ -30,11 +30,11 @@
 #include "bench/results/steps_file.h"
 #include "bench/results/verification_report.h"
 #include "bench/scenes/scene_source.h"
-#include "bench/support/denormals.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/progress.h"
-#include "bench/support/standard_output.h"
-#include "bench/workers/cache_lines.h"
+#include "bench/support/system/denormals.h"
+#include "bench/support/system/interrupt.h"
+#include "bench/workers/timing/cache_lines.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::cli {

@@ -7,9 +7,10 @@
 
 #include "bench/cli/plugin_option.h"
 #include "bench/cli/program.h"
+#include "bench/contestants/roster.h"
 #include "bench/meshes/meshes.h"
 #include "bench/scenes/generated_bodies.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/query_name.h"
 

@@ -16,9 +16,9 @@
 #include "bench/cli/selector_options.h"
 #include "bench/meshes/mesh_report.h"
 #include "bench/meshes/meshes.h"
-#include "bench/support/available_memory.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/names.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/system/available_memory.h"
 
 namespace touchmark::bench::cli {
 namespace {

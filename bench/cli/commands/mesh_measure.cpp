@@ -15,8 +15,8 @@
 #include "bench/cli/options.h"
 #include "bench/contestants/selectors.h"
 #include "bench/meshes/meshes.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/numbers.h"
-#include "bench/support/standard_output.h"
 #include "core/sphere_cluster/published/triangle_spheres.h"
 #include "core/subdivision/mesh_measures.h"
 

@@ -19,9 +19,9 @@
 #include "bench/contestants/selectors.h"
 #include "bench/meshes/mesh_writer.h"
 #include "bench/meshes/meshes.h"
-#include "bench/support/available_memory.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/numbers.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/system/available_memory.h"
 #include "core/subdivision/mesh_measures.h"
 #include "core/subdivision/subdivision.h"
 

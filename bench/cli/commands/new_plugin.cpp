@@ -11,9 +11,9 @@
 #include "bench/cli/new_plugin_files.h"
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
-#include "bench/support/atomic_file.h"
+#include "bench/support/files/atomic_file.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/shell_word.h"
-#include "bench/support/standard_output.h"
 
 namespace touchmark::bench::cli {
 namespace {

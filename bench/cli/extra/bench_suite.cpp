@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/contestants/roster.h"
 #include "bench/experiments/suite/suite_csv.h"
 #include "bench/experiments/suite/suite_plan.h"
 #include "bench/experiments/suite/suite_report.h"
@@ -22,11 +23,11 @@
 #include "bench/results/results_csv.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
-#include "bench/support/denormals.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/numbers.h"
 #include "bench/support/progress.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/system/denormals.h"
+#include "bench/support/system/interrupt.h"
 
 namespace touchmark::bench::cli {
 

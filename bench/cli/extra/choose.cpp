@@ -28,9 +28,9 @@
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
 #include "bench/scenes/scene_source.h"
-#include "bench/support/denormals.h"
-#include "bench/support/interrupt.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/files/standard_output.h"
+#include "bench/support/system/denormals.h"
+#include "bench/support/system/interrupt.h"
 #include "bench/support/timed_progress.h"
 
 namespace touchmark::bench::cli {

@@ -12,19 +12,13 @@
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
+#include "bench/support/checked.h"
 #include "bench/support/numbers.h"
 
 namespace touchmark::bench::cli {
 namespace {
 
-double checked_rate(const std::string& text) {
-  constexpr double max_rate_hz = 100'000;
-  const std::optional<double> rate = support::parse_number(text);
-  if (!rate || !(*rate > 0) || *rate > max_rate_hz)
-    throw std::invalid_argument(
-        fmt::format("--rate \"{}\" is not a number above 0 and at most {:g}", text, max_rate_hz));
-  return *rate;
-}
+constexpr double max_rate_hz = 100'000;
 
 /// 10% or 0.1.
 double checked_share(std::string text) {
@@ -60,8 +54,9 @@ std::optional<double> checked_memory(const std::string& given) {
 }  // namespace
 
 experiments::choose::Limits checked_limits(const ChooseOptions& options) {
-  return {checked_rate(options.selectors.motion.rate), checked_share(options.share),
-          checked_memory(options.memory)};
+  return {
+      support::checked_number("--rate", options.selectors.motion.rate, support::Zero::refused, max_rate_hz),
+      checked_share(options.share), checked_memory(options.memory)};
 }
 
 support::Deadline::duration checked_minutes(const ChooseOptions& options) {

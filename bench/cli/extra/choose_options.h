@@ -7,7 +7,7 @@
 #include "bench/cli/worker_options.h"
 #include "bench/contestants/selectors.h"
 #include "bench/experiments/choose/decision.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/system/interrupt.h"
 
 namespace touchmark::bench::cli {
 

@@ -13,6 +13,7 @@
 
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/extra/gate_options.h"
+#include "bench/contestants/roster.h"
 #include "bench/meshes/meshes.h"
 #include "bench/regression/gate/baseline.h"
 #include "bench/regression/gate/gate_report.h"
@@ -20,11 +21,11 @@
 #include "bench/results/build_info.h"
 #include "bench/results/system_info.h"
 #include "bench/scenes/scene_source.h"
-#include "bench/support/atomic_file.h"
-#include "bench/support/denormals.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/files/atomic_file.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/progress.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/system/denormals.h"
+#include "bench/support/system/interrupt.h"
 #include "bench/workload/content_hash.h"
 #include "bench/workload/query_name.h"
 

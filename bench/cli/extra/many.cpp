@@ -11,21 +11,21 @@
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/options.h"
 #include "bench/cli/plugin_option.h"
+#include "bench/contestants/roster.h"
 #include "bench/experiments/many/many_run.h"
-#include "bench/experiments/papers/paper_options.h"
 #include "bench/meshes/meshes.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/system_info.h"
-#include "bench/support/denormals.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/checked.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/progress.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/system/denormals.h"
+#include "bench/support/system/interrupt.h"
 #include "core/search/threads/parallel.h"
 
 namespace touchmark::bench::cli {
 
 namespace many = experiments::many;
-namespace papers = experiments::papers;
 
 namespace {
 
@@ -81,20 +81,20 @@ ManySettings checked(const ManyCommandOptions& options, const contestants::Roste
         throw std::invalid_argument(
             fmt::format("--order \"{}\" is not one of as-given, automatic, curve", name));
       settings.options.push_back(
-          {static_cast<unsigned>(papers::checked_number("--threads", threads, 1, max_threads, 1)), *order});
+          {static_cast<unsigned>(support::count_or(1, "--threads", threads, 1, max_threads)), *order});
     }
   }
-  settings.sizes = {papers::checked_number("--points", options.points, 1, most, quick ? 10'000 : 100'000),
-                    papers::checked_number("--shell-points", options.shell_points, 1, most, 1'000),
-                    papers::checked_number("--ticks", options.ticks, 1, 1'000'000, quick ? 20 : 200)};
-  settings.rounds = papers::checked_number("--rounds", options.rounds, 1, 1'000, quick ? 3 : 11);
-  settings.seed = papers::checked_seed(options.seed);
+  settings.sizes = {support::count_or(quick ? 10'000 : 100'000, "--points", options.points, 1, most),
+                    support::count_or(1'000, "--shell-points", options.shell_points, 1, most),
+                    support::count_or(quick ? 20 : 200, "--ticks", options.ticks, 1, 1'000'000)};
+  settings.rounds = support::count_or(quick ? 3 : 11, "--rounds", options.rounds, 1, 1'000);
+  settings.seed = support::checked_seed(options.seed);
   return settings;
 }
 
 int run_many(const ProgramContext& context, const ManyCommandOptions& options) {
   const ManySettings settings = checked(options, context.roster);
-  const support::Length reach_text = papers::checked_finite_length("--reach", options.reach);
+  const support::Length reach_text = support::checked_finite_length("--reach", options.reach);
   const std::string name = options.mesh.empty() ? meshes::default_mesh() : options.mesh;
   std::optional<results::ResultsFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out);

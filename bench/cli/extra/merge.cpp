@@ -14,7 +14,7 @@
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/options.h"
 #include "bench/results/results_csv.h"
-#include "bench/support/atomic_file.h"
+#include "bench/support/files/atomic_file.h"
 #include "bench/support/numbers.h"
 
 namespace touchmark::bench::cli {

@@ -1,7 +1,6 @@
 /// `touchmark proxy`: which proxy crosses a surface, and how often? Every way is replayed by the exact
 /// oracle.
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include "bench/cli/extra/coupling_options.h"
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/options.h"
+#include "bench/contestants/roster.h"
 #include "bench/experiments/proxy/proxy_csv.h"
 #include "bench/experiments/proxy/proxy_report.h"
 #include "bench/experiments/proxy/proxy_run.h"
@@ -22,13 +22,13 @@
 #include "bench/experiments/proxy/stab.h"
 #include "bench/meshes/meshes.h"
 #include "bench/results/results_folder.h"
-#include "bench/support/atomic_file.h"
-#include "bench/support/denormals.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/checked.h"
+#include "bench/support/files/atomic_file.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/length.h"
-#include "bench/support/numbers.h"
 #include "bench/support/progress.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/system/denormals.h"
+#include "bench/support/system/interrupt.h"
 #include "bench/trajectories/trajectories.h"
 
 namespace touchmark::bench::cli {
@@ -46,15 +46,6 @@ struct ProxyOptions {
   CouplingSelectors coupling;
 };
 
-std::uint64_t checked_count(const char* option, const std::string& text, std::uint64_t least,
-                            std::uint64_t most) {
-  const std::optional<std::uint64_t> count = support::parse_count(text);
-  if (!count || *count < least || *count > most)
-    throw std::invalid_argument(
-        fmt::format("{} \"{}\" is not a whole number from {} to {}", option, text, least, most));
-  return *count;
-}
-
 proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::Roster& roster) {
   proxy::ProxyRequest request;
   for (const std::string& name : options.families) request.families.push_back(&proxy::family_named(name));
@@ -63,8 +54,9 @@ proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::R
   }
   for (const std::string& name : options.methods) request.methods.push_back(proxy::method_named(name));
   if (request.methods.empty()) request.methods = proxy::all_methods(roster);
-  request.ticks = checked_count("--ticks", options.ticks.empty() ? "100000" : options.ticks, 1, max_ticks);
-  request.seed = checked_count("--seed", options.seed, 0, UINT32_MAX);
+  request.ticks =
+      support::checked_count("--ticks", options.ticks.empty() ? "100000" : options.ticks, 1, max_ticks);
+  request.seed = support::checked_count("--seed", options.seed, 0, UINT32_MAX);
   request.detector = roster.parse_all({options.detector}).front().text();
   request.coupling = checked_coupling(options.coupling);
   return request;
@@ -73,14 +65,11 @@ proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::R
 /// The user's own mesh and motion.
 proxy::Course course_of(const ProxyOptions& options, std::uint64_t seed) {
   TriangleMesh mesh = meshes::load_mesh(options.mesh, false);
-  const std::optional<support::Length> length = support::parse_length(options.radius);
-  if (!length || !std::isfinite(length->value))
-    throw std::invalid_argument(
-        fmt::format("--radius \"{}\" is not a finite length of 0 or more", options.radius));
+  const support::Length length = support::checked_finite_length("--radius", options.radius);
   trajectories::TrajectoryOptions motion;
-  if (!options.ticks.empty()) motion.steps = checked_count("--ticks", options.ticks, 1, max_ticks);
+  if (!options.ticks.empty()) motion.steps = support::checked_count("--ticks", options.ticks, 1, max_ticks);
   motion.seed = seed;
-  motion.radius = length->in_mesh_units(mesh);
+  motion.radius = length.in_mesh_units(mesh);
   trajectories::Trajectory trajectory = trajectories::make_trajectory(options.trajectory, mesh, motion);
   const std::vector<Vec3>& goals = trajectory.positions;
   const Vec3 start = proxy::free_start(proxy::WayOracle(mesh), goals, motion.radius);

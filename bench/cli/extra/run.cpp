@@ -20,10 +20,10 @@
 #include "bench/results/results_csv.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
-#include "bench/support/denormals.h"
-#include "bench/support/interrupt.h"
 #include "bench/support/numbers.h"
 #include "bench/support/progress.h"
+#include "bench/support/system/denormals.h"
+#include "bench/support/system/interrupt.h"
 #include "bench/workload/content_hash.h"
 
 namespace touchmark::bench::cli {

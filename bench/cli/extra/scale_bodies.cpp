@@ -7,15 +7,16 @@
 
 #include <fmt/format.h>
 
+#include "bench/contestants/roster.h"
 #include "bench/experiments/scaling/body_run.h"
 #include "bench/experiments/scaling/mesh_sizes.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
-#include "bench/support/denormals.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/numbers.h"
 #include "bench/support/progress.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/system/denormals.h"
+#include "bench/support/system/interrupt.h"
 
 namespace touchmark::bench::cli {
 

@@ -18,15 +18,15 @@
 #include "bench/experiments/servo/servo_csv.h"
 #include "bench/experiments/servo/servo_report.h"
 #include "bench/experiments/servo/servo_run.h"
-#include "bench/experiments/servo/servo_trace.h"
 #include "bench/meshes/meshes.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
 #include "bench/scenes/scene_source.h"
-#include "bench/support/denormals.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/progress.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/system/denormals.h"
+#include "bench/support/system/interrupt.h"
+#include "bench/workload/paced_workload.h"
 
 namespace touchmark::bench::cli {
 
@@ -97,21 +97,21 @@ ServoCommand::ServoCommand(const ProgramContext& context, const ServoOptions& op
 workload::Workload ServoCommand::workload_by_time() {
   const contestants::Selectors& selectors = options_.selectors;
   if (!selectors.scene.empty())
-    return servo::scene_workload_by_time(
+    return workload::scene_workload_by_time(
         scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection_,
-        {trajectory_}, settings_);
+        {trajectory_}, {settings_.rate_hz, settings_.ticks});
   TriangleMesh mesh = meshes::load_mesh(mesh_, options_.selectors.normalize);
   static_cast<workload::Selection&>(selection_) =
-      servo::selection_by_time(selection_, mesh, trajectory_, settings_.rate_hz);
-  return servo::workload_by_time(results::without_directories(mesh_), std::move(mesh), selection_,
-                                 trajectory_, settings_);
+      workload::selection_by_time(selection_, mesh, trajectory_, settings_.rate_hz);
+  return workload::workload_by_time(results::without_directories(mesh_), std::move(mesh), selection_,
+                                    trajectory_, {settings_.rate_hz, settings_.ticks});
 }
 
 /// The commands that answer a tick's step again: along the file of the positions where `touchmark query` does
 /// not make them itself.
 void ServoCommand::name_commands(servo::ServoRun& run) const {
   if (settings_.proxy) return;  // a step follows from all goals before it
-  const bool needs_file = servo::is_resampled_shape(trajectory_, settings_.rate_hz);
+  const bool needs_file = workload::is_resampled_shape(trajectory_, settings_.rate_hz);
   if (needs_file && !folder_) return;
   contestants::Selectors selectors = options_.selectors;
   if (!selection_.motion.rate_hz) selectors.motion.rate.clear();
@@ -156,8 +156,8 @@ void ServoCommand::save(const servo::ServoRun& run) const {
   folder_->write_file("servo.csv", servo::servo_csv(description_.run_id, settings_, run.rows()));
   folder_->write_file("servo_histogram.csv", servo::histogram_csv(run.rows()));
   folder_->write_file("servo_worst.csv", servo::worst_csv(workload_, run.rows()));
-  if (servo::is_resampled_shape(trajectory_, settings_.rate_hz))
-    folder_->write_file("motion.csv", servo::motion_csv(workload_));
+  if (workload::is_resampled_shape(trajectory_, settings_.rate_hz))
+    folder_->write_file("motion.csv", workload::motion_csv(workload_));
   folder_->write_file("run.json", run_json(run));
 }
 

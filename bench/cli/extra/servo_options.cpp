@@ -13,10 +13,11 @@
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
-#include "bench/experiments/proxy/methods.h"
 #include "bench/experiments/servo/load.h"
 #include "bench/experiments/servo/servo_csv.h"
+#include "bench/proxies/methods.h"
 #include "bench/results/system_info.h"
+#include "bench/support/checked.h"
 #include "bench/support/numbers.h"
 
 namespace touchmark::bench::cli {
@@ -29,17 +30,9 @@ namespace {
 constexpr double max_rate_hz = 100'000;
 constexpr double max_s = 1e6;
 
-double checked_number(const char* option, const std::string& text, bool zero_too, double most) {
-  const std::optional<double> value = support::parse_number(text);
-  if (!value || !(*value > 0 || (zero_too && *value == 0)) || *value > most)
-    throw std::invalid_argument(fmt::format("{} \"{}\" is not a number {} and at most {:g}", option, text,
-                                            zero_too ? "of 0 or more" : "above 0", most));
-  return *value;
-}
-
 /// Workers have our proxy; those of the suite, which notes what it compares, are not made for a loop.
 void check_method(const std::string& method) {
-  if (method.empty() || proxy::method_named(method).text() == servo::own_proxy) return;
+  if (method.empty() || proxies::method_named(method).text() == servo::own_proxy) return;
   throw std::invalid_argument(fmt::format(
       "--method \"{}\": servo steps {} alone; touchmark proxy compares all", method, servo::own_proxy));
 }
@@ -72,10 +65,11 @@ int checked_core(const ServoOptions& options) {
 
 servo::ServoSettings checked_settings(const ServoOptions& options, int core) {
   servo::ServoSettings settings;
-  settings.rate_hz = checked_number("--rate", options.selectors.motion.rate, false, max_rate_hz);
-  const double seconds = checked_number("--seconds", options.seconds, false, max_s);
+  settings.rate_hz =
+      support::checked_number("--rate", options.selectors.motion.rate, support::Zero::refused, max_rate_hz);
+  const double seconds = support::checked_number("--seconds", options.seconds, support::Zero::refused, max_s);
   settings.ticks = static_cast<std::uint64_t>(std::max(std::round(seconds * settings.rate_hz), 1.0));
-  settings.work_us = checked_number("--work", options.work_us, true, 1e6);
+  settings.work_us = support::checked_number("--work", options.work_us, support::Zero::allowed, 1e6);
   const std::optional<servo::Load> load = servo::load_named(options.load);
   if (!load)
     throw std::invalid_argument(fmt::format("--load \"{}\" is not one of none, memory, cpu", options.load));

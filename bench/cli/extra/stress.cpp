@@ -17,17 +17,19 @@
 #include "bench/cli/report_files.h"
 #include "bench/cli/single_step.h"
 #include "bench/cli/worker_options.h"
+#include "bench/contestants/roster.h"
 #include "bench/contestants/selectors.h"
 #include "bench/experiments/stress/stress_csv.h"
 #include "bench/experiments/stress/stress_report.h"
 #include "bench/experiments/stress/stress_run.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/verification_report.h"
-#include "bench/support/denormals.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/checked.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/numbers.h"
 #include "bench/support/progress.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/system/denormals.h"
+#include "bench/support/system/interrupt.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::cli {
@@ -51,15 +53,6 @@ struct StressOptions {
   WorkerSelectors workers;
 };
 
-std::size_t checked_probes(const std::string& text) {
-  const std::optional<std::uint64_t> probes = support::parse_count(text);
-  if (!probes || *probes < 1 || *probes > max_probes) {
-    throw std::invalid_argument(
-        fmt::format("--probes \"{}\" is not a whole number from 1 to {}", text, max_probes));
-  }
-  return *probes;
-}
-
 std::vector<const stress::Family*> checked_families(const std::vector<std::string>& names) {
   std::vector<const stress::Family*> chosen;
   for (const std::string& name : names) chosen.push_back(&stress::family_named(name));
@@ -78,7 +71,7 @@ stress::StressRequest request_of(const StressOptions& options, const contestants
   request.queries = selection.queries;
   if (!options.sweep_too) std::erase(request.queries, workload::Query::sweep);
   request.seed = selection.seed;
-  request.probes = checked_probes(options.probes);
+  request.probes = support::checked_count("--probes", options.probes, 1, max_probes);
   request.workers = worker_options(options.workers);
   request.workers.calibrate_clock = false;
   if (options.workers.timeout.empty())

@@ -10,16 +10,17 @@
 #include <fmt/format.h>
 
 #include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/extra/papers/paper_options.h"
 #include "bench/cli/options.h"
 #include "bench/experiments/papers/frontier.h"
-#include "bench/experiments/papers/paper_options.h"
 #include "bench/experiments/papers/tuning.h"
 #include "bench/meshes/meshes.h"
 #include "bench/results/results_folder.h"
-#include "bench/support/denormals.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/checked.h"
+#include "bench/support/files/standard_output.h"
 #include "bench/support/progress.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/system/denormals.h"
+#include "bench/support/system/interrupt.h"
 #include "bench/support/table.h"
 
 namespace touchmark::bench::cli {
@@ -31,7 +32,7 @@ namespace {
 struct TuneOptions {
   std::string mesh, rate, levels, reference, threshold = "1%";
   std::vector<std::string> methods, clusterings;
-  papers::PaperOptions common{"", "0.5%", "", "1", false};
+  PaperOptions common{"", "0.5%", "", "1", false};
 };
 
 std::vector<SubdivisionMethod> checked_methods(const std::vector<std::string>& names) {
@@ -49,7 +50,7 @@ std::vector<SubdivisionMethod> checked_methods(const std::vector<std::string>& n
 std::vector<double> checked_clusterings(const std::vector<std::string>& texts, const TriangleMesh& mesh) {
   std::vector<double> distances;
   for (const std::string& text : texts)
-    distances.push_back(papers::checked_finite_length("--clustering", text).in_mesh_units(mesh));
+    distances.push_back(support::checked_finite_length("--clustering", text).in_mesh_units(mesh));
   if (!distances.empty()) return distances;
   for (const double times : {0.0, 0.5, 1.0, 2.0, 4.0})
     distances.push_back(times * papers::choi_sung_clustering_percent / 100 * mesh.diagonal());
@@ -60,12 +61,12 @@ papers::FrontierSettings checked(const TuneOptions& options, const TriangleMesh&
   const bool quick = options.common.quick;
   papers::FrontierSettings settings;
   settings.methods = checked_methods(options.methods);
-  settings.levels = static_cast<int>(papers::checked_number("--levels", options.levels, 0, 8, quick ? 1 : 3));
-  settings.threshold = papers::checked_finite_length("--threshold", options.threshold).in_mesh_units(mesh);
+  settings.levels = static_cast<int>(support::count_or(quick ? 1 : 3, "--levels", options.levels, 0, 8));
+  settings.threshold = support::checked_finite_length("--threshold", options.threshold).in_mesh_units(mesh);
   settings.clusterings = checked_clusterings(options.clusterings, mesh);
-  settings.radius = papers::checked_finite_length("--radius", options.common.radius).in_mesh_units(mesh);
-  settings.steps = papers::checked_number("--steps", options.common.steps, 1, 1'000'000, quick ? 50 : 1000);
-  settings.seed = papers::checked_seed(options.common.seed);
+  settings.radius = support::checked_finite_length("--radius", options.common.radius).in_mesh_units(mesh);
+  settings.steps = support::count_or(quick ? 50 : 1000, "--steps", options.common.steps, 1, 1'000'000);
+  settings.seed = support::checked_seed(options.common.seed);
   if (!options.reference.empty())
     settings.reference = meshes::load_mesh(options.reference);
   else if (papers::sharp_edges(mesh).share >= papers::mostly_sharp)
@@ -137,7 +138,7 @@ std::string reference_note(const TuneOptions& options, const TriangleMesh& mesh,
 }
 
 int run(const TuneOptions& options) {
-  const double rate = papers::checked_positive("--rate", options.rate);
+  const double rate = support::checked_positive("--rate", options.rate);
   const TriangleMesh mesh = meshes::load_mesh(options.mesh);
   const papers::FrontierSettings settings = checked(options, mesh);
   std::optional<results::ResultsFolder> folder;
@@ -189,7 +190,7 @@ void add_tune(CLI::App& program, ProgramContext& context) {
             "only longer edges split: mesh units or % of the diagonal");
   add_list(*command, "--clustering", options->clusterings, "LENGTH",
            "distance, repeatable; without it 0 and half to four times the paper's");
-  papers::add_paper_options(*command, options->common);
+  add_paper_options(*command, options->common);
   command->footer(
       "Exit status 1: nothing tried holds the rate.\nExample: touchmark tune --rate 1000 --mesh bunny\n");
   command->final_callback([options, &context] { context.status = run(*options); });

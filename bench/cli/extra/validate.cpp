@@ -26,7 +26,7 @@
 #include "bench/results/validation/run_check.h"
 #include "bench/results/validation/steps_check.h"
 #include "bench/results/validation/visits_check.h"
-#include "bench/support/standard_output.h"
+#include "bench/support/files/standard_output.h"
 
 namespace touchmark::bench::cli {
 

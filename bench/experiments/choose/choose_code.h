@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 #include "bench/workload/workload.h"
 
 namespace touchmark::bench::experiments::choose {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bench/experiments/servo/servo_trace.h"
+#include "bench/workload/paced_workload.h"
 
 namespace touchmark::bench::experiments::choose {
 namespace {
@@ -16,11 +16,10 @@ constexpr double faster = 10;
 
 /// The slide with a tenth of the ticks on its way.
 workload::Workload make_fast_slide(const std::string& mesh_name, const TriangleMesh& mesh,
-                                   const workload::Selection& selection, servo::ServoSettings settings) {
-  settings.rate_hz /= faster;
-  workload::Workload slide = servo::workload_by_time(
-      mesh_name, mesh, servo::selection_by_time(selection, mesh, "slide", settings.rate_hz), "slide",
-      settings);
+                                   const workload::Selection& selection, workload::Ticks ticks) {
+  ticks.rate_hz /= faster;
+  workload::Workload slide = workload::workload_by_time(
+      mesh_name, mesh, workload::selection_by_time(selection, mesh, "slide", ticks.rate_hz), "slide", ticks);
   slide.trajectories.front() = fast_slide;
   for (workload::Pace& pace : slide.motions) {
     pace.mean_speed *= faster;
@@ -43,28 +42,22 @@ const std::vector<std::string>& usual_motions_over_bodies() {
 
 workload::Workload workload_by_time(scenes::GeneratedScene scene, const workload::Selection& selection,
                                     const std::vector<std::string>& motions, double rate_hz) {
-  servo::ServoSettings settings;
-  settings.rate_hz = rate_hz;
-  settings.ticks = servo::default_steps;
   if (std::ranges::find(motions, fast_slide) != motions.end())
     throw std::invalid_argument("fast-slide is over one mesh: over a scene of bodies write a motion file");
-  return servo::scene_workload_by_time(std::move(scene), selection, motions, settings);
+  return workload::scene_workload_by_time(std::move(scene), selection, motions, {rate_hz});
 }
 
 workload::Workload workload_by_time(const std::string& mesh_name, const TriangleMesh& mesh,
                                     const workload::Selection& selection,
                                     const std::vector<std::string>& motions, double rate_hz) {
-  servo::ServoSettings settings;
-  settings.rate_hz = rate_hz;
-  settings.ticks = servo::default_steps;
   std::optional<workload::Workload> all;
   for (const std::string& motion : motions) {
     workload::Workload one =
         motion == fast_slide
-            ? make_fast_slide(mesh_name, mesh, selection, settings)
-            : servo::workload_by_time(mesh_name, mesh,
-                                      servo::selection_by_time(selection, mesh, motion, rate_hz), motion,
-                                      settings);
+            ? make_fast_slide(mesh_name, mesh, selection, {rate_hz})
+            : workload::workload_by_time(mesh_name, mesh,
+                                         workload::selection_by_time(selection, mesh, motion, rate_hz),
+                                         motion, {rate_hz});
     if (!all) {
       all = std::move(one);
       continue;

@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 
 #include "bench/support/interleaving.h"
-#include "bench/support/interrupt.h"
 #include "bench/support/median.h"
-#include "bench/support/processor_time.h"
+#include "bench/support/system/interrupt.h"
+#include "bench/support/system/processor_time.h"
 #include "bench/workload/answer.h"
 #include "core/aabb_tree/aabb_tree.h"
 

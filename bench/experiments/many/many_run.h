@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 #include "bench/experiments/many/many_row.h"
 #include "bench/experiments/many/many_workload.h"
 #include "core/search/many/many_options.h"

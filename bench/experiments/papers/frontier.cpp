@@ -11,7 +11,7 @@
 #include "bench/contestants/contestant_of.h"
 #include "bench/experiments/papers/paper_trace.h"
 #include "bench/support/failures.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/system/interrupt.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/published/published_sphere_cluster.h"
 #include "core/sphere_cluster/sphere_cluster.h"

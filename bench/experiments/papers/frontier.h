@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/papers/choi_sung.h"
-#include "bench/experiments/papers/geometric_error.h"
+#include "bench/experiments/papers/choi_sung/choi_sung.h"
+#include "bench/experiments/papers/choi_sung/geometric_error.h"
 #include "bench/experiments/papers/interleaved_timing.h"
 #include "bench/support/table.h"
 #include "core/subdivision/subdivision.h"

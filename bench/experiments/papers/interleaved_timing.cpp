@@ -7,10 +7,10 @@
 
 #include "bench/measurement/latency.h"
 #include "bench/support/interleaving.h"
-#include "bench/support/interrupt.h"
 #include "bench/support/median.h"
-#include "bench/support/processor_time.h"
 #include "bench/support/random.h"
+#include "bench/support/system/interrupt.h"
+#include "bench/support/system/processor_time.h"
 
 namespace touchmark::bench::experiments::papers {
 InterleavedTiming::InterleavedTiming(std::span<const workload::Step> steps, workload::Query query,

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiments/papers/surface_measures.h"
+#include "bench/experiments/papers/choi_sung/surface_measures.h"
 
 namespace touchmark::bench::experiments::papers {
 

@@ -7,12 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/proxy/course.h"
 #include "bench/experiments/proxy/motion.h"
 #include "bench/meshes/surface_builder.h"
+#include "bench/proxies/course.h"
 #include "bench/support/random.h"
 
 namespace touchmark::bench::experiments::proxy {
+
+using namespace proxies;
 
 /// The usual size of a course's meshes: as of what fits under a haptic device, in metres.
 inline constexpr double course_size = 0.1;

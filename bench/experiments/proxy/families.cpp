@@ -1,3 +1,5 @@
+#include "bench/experiments/proxy/families.h"
+
 #include <array>
 
 #include "bench/experiments/proxy/course_makers.h"

@@ -21,7 +21,7 @@ std::string percentile(S score) {
 
 template <int thousandths>
 std::string bare_percentile(S score) {
-  const servo::LatencyHistogram& times = score.tally.bare_times;
+  const measurement::LatencyHistogram& times = score.tally.bare_times;
   return times.count() > 0 ? fmt::format("{}", times.percentile(thousandths / 1000.0)) : "";
 }
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/support/interrupt.h"
+#include "bench/support/system/interrupt.h"
 
 namespace touchmark::bench::experiments::proxy {
 namespace {

@@ -7,12 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "bench/contestants/contestant_info.h"
-#include "bench/experiments/proxy/course.h"
-#include "bench/experiments/proxy/methods.h"
-#include "bench/experiments/proxy/tally.h"
+#include "bench/contestants/roster.h"
+#include "bench/experiments/proxy/families.h"
+#include "bench/proxies/course.h"
+#include "bench/proxies/methods.h"
+#include "bench/proxies/tally.h"
 
 namespace touchmark::bench::experiments::proxy {
+
+using namespace proxies;
 
 struct ProxyRequest {
   std::vector<const Family*> families;

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <string>
 
-#include "bench/experiments/proxy/course.h"
-#include "bench/experiments/proxy/proxy_method.h"
+#include "bench/proxies/course.h"
+#include "bench/proxies/proxy_method.h"
 
 namespace touchmark::bench::experiments::proxy {
+
+using namespace proxies;
 
 /// Columns step, segment, goal_x, goal_y, goal_z, proxy_x, proxy_y, proxy_z, contacts, force_x, force_y,
 /// force_z, ns. Steps count from 0, and each has a row, also where the proxy rests; `proxy` is where the

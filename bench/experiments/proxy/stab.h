@@ -4,11 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "bench/contestants/contestant_info.h"
-#include "bench/experiments/proxy/course.h"
-#include "bench/experiments/proxy/methods.h"
+#include "bench/contestants/roster.h"
+#include "bench/proxies/course.h"
+#include "bench/proxies/methods.h"
 
 namespace touchmark::bench::experiments::proxy {
+
+using namespace proxies;
 
 /// A ball of 2 mm over a block with a groove and a wall of half a millimetre: it is pressed below the
 /// surface, drawn along under the groove, and jerked through the wall. All happens in the plane y = 0.

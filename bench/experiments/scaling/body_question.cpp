@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "bench/meshes/portable_sincos.h"
-#include "bench/support/available_memory.h"
+#include "bench/support/system/available_memory.h"
 
 namespace touchmark::bench::experiments::scaling {
 namespace {

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "bench/scenes/scene_source.h"
-#include "bench/support/interrupt.h"
+#include "bench/support/system/interrupt.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::experiments::scaling {

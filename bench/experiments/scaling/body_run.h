@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 #include "bench/contestants/tick_clock.h"
 #include "bench/experiments/scaling/body_question.h"
 #include "bench/experiments/scaling/body_row.h"

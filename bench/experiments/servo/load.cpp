@@ -6,8 +6,8 @@
 #include <sched.h>
 #include <unistd.h>
 
-#include "bench/support/available_memory.h"
 #include "bench/support/names.h"
+#include "bench/support/system/available_memory.h"
 
 namespace touchmark::bench::experiments::servo {
 namespace {

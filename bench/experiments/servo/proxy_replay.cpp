@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/experiments/proxy/certified.h"
-#include "bench/support/interrupt.h"
+#include "bench/proxies/certified.h"
+#include "bench/support/system/interrupt.h"
 
 namespace touchmark::bench::experiments::servo {
 namespace {
@@ -14,7 +14,7 @@ const std::vector<Vec3> unknown_optima;
 
 }  // namespace
 
-ProxyReplay::ProxyReplay(const workload::Workload& workload, const proxy::WayOracle& oracle,
+ProxyReplay::ProxyReplay(const workload::Workload& workload, const proxies::WayOracle& oracle,
                          std::unique_ptr<contestants::Contestant> contestant, const Coupling& coupling,
                          const Vec3& start)
     : workload_(workload),
@@ -26,7 +26,7 @@ ProxyReplay::ProxyReplay(const workload::Workload& workload, const proxy::WayOra
 void ProxyReplay::place() {
   proxy_.place(course_.start);
   course_.goals.clear();
-  judge_ = std::make_unique<proxy::Judge>(course_, unknown_optima, coupling_, tally_);
+  judge_ = std::make_unique<proxies::Judge>(course_, unknown_optima, coupling_, tally_);
   judge_->see(oracle_);
 }
 
@@ -42,7 +42,7 @@ bool ProxyReplay::follow(std::span<const workers::TickRecord> ticks) {
     tally_.work += work;
     work_max_ = std::max(work_max_, work);
     same = same && contestants::checksum_of(state) == tick.checksum;
-    proxy::take(state, step_);
+    proxies::take(state, step_);
     if (course_.goals.size() == 2) course_.goals.erase(course_.goals.begin());
     course_.goals.push_back(goal);
     judge_->tick(course_.goals.size() - 1, step_);

@@ -7,9 +7,9 @@
 
 #include "bench/contestants/contestant.h"
 #include "bench/contestants/guided_proxy.h"
-#include "bench/experiments/proxy/tally.h"
-#include "bench/experiments/proxy/way_oracle.h"
-#include "bench/workers/paced_replay.h"
+#include "bench/proxies/tally.h"
+#include "bench/proxies/way_oracle.h"
+#include "bench/workers/timing/paced_replay.h"
 #include "bench/workload/workload.h"
 #include "core/haptics/coupling.h"
 
@@ -21,7 +21,7 @@ namespace touchmark::bench::experiments::servo {
 class ProxyReplay {
  public:
   /// Over the first trace. `workload` and `oracle` must outlive it; the contestant must guide proxies.
-  ProxyReplay(const workload::Workload& workload, const proxy::WayOracle& oracle,
+  ProxyReplay(const workload::Workload& workload, const proxies::WayOracle& oracle,
               std::unique_ptr<contestants::Contestant> contestant, const Coupling& coupling,
               const Vec3& start);
 
@@ -30,19 +30,19 @@ class ProxyReplay {
   /// Returns false if a tick of the loop came to something else.
   bool follow(std::span<const workers::TickRecord> ticks);
 
-  const proxy::Tally& tally() const noexcept { return tally_; }
+  const proxies::Tally& tally() const noexcept { return tally_; }
   double work_mean() const noexcept;  ///< a tick's
   std::uint64_t work_max() const noexcept { return work_max_; }
 
  private:
   const workload::Workload& workload_;
-  const proxy::WayOracle& oracle_;
+  const proxies::WayOracle& oracle_;
   Coupling coupling_;
   contestants::GuidedProxy proxy_;
-  proxy::Course course_;  ///< its goals are those of the last tick and of the one before
-  proxy::Tally tally_;
-  std::unique_ptr<proxy::Judge> judge_;
-  proxy::Step step_;
+  proxies::Course course_;  ///< its goals are those of the last tick and of the one before
+  proxies::Tally tally_;
+  std::unique_ptr<proxies::Judge> judge_;
+  proxies::Step step_;
   std::uint64_t work_max_ = 0;
 };
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/support/cpu_quota.h"
+#include "bench/support/system/cpu_quota.h"
 
 namespace touchmark::bench::experiments::servo {
 

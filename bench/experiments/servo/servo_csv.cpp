@@ -23,7 +23,7 @@ using A = const ServoLine&;
 namespace kinds = results::kinds;
 using enum results::Presence;
 using Loop = std::optional<LoopResult> ServoRow::*;
-using Times = const LatencyHistogram& (TickTally::*)() const noexcept;
+using Times = const measurement::LatencyHistogram& (TickTally::*)() const noexcept;
 
 template <Loop loop, auto Value>
 std::string of_tally(A asked) {
@@ -40,7 +40,7 @@ template <Loop loop, Times times, unsigned parts>
 std::string percentile(A asked) {
   const std::optional<LoopResult>& result = asked.row.*loop;
   if (!result) return "";
-  const LatencyHistogram& histogram = (result->tally.*times)();
+  const measurement::LatencyHistogram& histogram = (result->tally.*times)();
   constexpr std::uint64_t needed = parts == 9999 ? ticks_for_p9999 : parts == 9990 ? ticks_for_p999 : 1;
   if (histogram.count() < needed) return "";
   return count(parts == 10'000 ? histogram.max_ns() : histogram.percentile(parts / 10'000.0));
@@ -156,8 +156,8 @@ std::vector<std::string> key_of(const ServoRow& row) {
 }
 
 void add_buckets(support::Table& table, const ServoRow& row, const char* loop_name, const char* time,
-                 const LatencyHistogram& histogram) {
-  for (const LatencyHistogram::Bucket& bucket : histogram.buckets()) {
+                 const measurement::LatencyHistogram& histogram) {
+  for (const measurement::LatencyHistogram::Bucket& bucket : histogram.buckets()) {
     std::vector<std::string> fields = key_of(row);
     fields.insert(fields.end(), {loop_name, time, count(bucket.up_to_ns), count(bucket.ticks)});
     table.add(std::move(fields));

@@ -13,7 +13,8 @@ constexpr std::uint64_t run_that_stops_a_robot = 20;
 
 std::string us(std::int64_t ns) { return fmt::format("{:.4g}", static_cast<double>(ns) / 1e3); }
 
-std::string percentile(const LatencyHistogram& histogram, double fraction, std::uint64_t needed) {
+std::string percentile(const measurement::LatencyHistogram& histogram, double fraction,
+                       std::uint64_t needed) {
   return histogram.count() < needed ? "" : us(histogram.percentile(fraction));
 }
 
@@ -21,7 +22,7 @@ std::vector<std::string> cells_of(const std::string& name, const LoopResult& loo
   const TickTally& tally = loop.tally;
   std::vector<std::string> cells{name, fmt::format("{}", tally.ticks()), fmt::format("{}", tally.missed()),
                                  fmt::format("{}", tally.max_run())};
-  const auto add = [&cells](const LatencyHistogram& times) {
+  const auto add = [&cells](const measurement::LatencyHistogram& times) {
     cells.insert(cells.end(), {percentile(times, 0.5, 1), percentile(times, 0.99, 1),
                                percentile(times, 0.999, ticks_for_p999), us(times.max_ns())});
   };

@@ -88,7 +88,7 @@ void ServoRun::verify(std::size_t contestant, ground_truth::TraceTruths& truths)
 
 void ServoRun::begin_proxies(const std::function<void(const std::string&)>& progress) {
   way_oracle_.emplace(workload_.mesh);
-  start_ = proxy::free_start(*way_oracle_, goals_of(workload_), settings_.proxy->radius);
+  start_ = proxies::free_start(*way_oracle_, goals_of(workload_), settings_.proxy->radius);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     progress(rows_[i].contestant());
     attempt(i, [&] {
@@ -160,7 +160,7 @@ void ServoRun::judge_proxy(std::size_t contestant, const workers::ServoStretch& 
   if (stretch.placed) replay.place();
   const auto records = arena_.buffers().tick_records(warm_up + stretch.recorded);
   const bool same = replay.follow(records.first(stretch.warmed)) && replay.follow(records.subspan(warm_up));
-  const proxy::Tally& tally = replay.tally();
+  const proxies::Tally& tally = replay.tally();
   row.proxy = {tally.ticks, tally.crossings, tally.violations, tally.contact_ticks, tally.stuck_ticks};
   row.work_mean = replay.work_mean();
   row.work_max = replay.work_max();

@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "bench/contestants/contestant_info.h"
-#include "bench/experiments/proxy/way_oracle.h"
+#include "bench/contestants/roster.h"
 #include "bench/experiments/servo/proxy_replay.h"
 #include "bench/experiments/servo/servo_row.h"
 #include "bench/ground_truth/ground_truth.h"
+#include "bench/proxies/way_oracle.h"
 #include "bench/workers/contestant_process.h"
 #include "bench/workload/workload.h"
 
@@ -67,7 +67,7 @@ class ServoRun {
   std::vector<ServoRow> rows_;
   std::vector<std::vector<std::uint64_t>> checksums_;  // of each contestant's verified answers, by step
   std::vector<std::uint64_t> next_tick_;               // where on the trajectory each contestant is
-  std::optional<proxy::WayOracle> way_oracle_;         // of proxies, as what follows
+  std::optional<proxies::WayOracle> way_oracle_;       // of proxies, as what follows
   Vec3 start_ = Vec3::Zero();                          // where they begin
   std::vector<std::unique_ptr<ProxyReplay>> replays_;
 };

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "bench/experiments/servo/histogram.h"
-#include "bench/workers/paced_replay.h"
+#include "bench/measurement/histogram.h"
+#include "bench/workers/timing/paced_replay.h"
 #include "core/detector.h"
 
 namespace touchmark::bench::experiments::servo {
@@ -37,9 +37,9 @@ class TickTally {
   std::uint64_t lost() const noexcept { return lost_; }
   std::uint64_t max_run() const noexcept { return max_run_; }
   /// From the scheduled start; of a lost tick to the first answer after it.
-  const LatencyHistogram& latency() const noexcept { return latency_; }
+  const measurement::LatencyHistogram& latency() const noexcept { return latency_; }
   /// The query alone, one reading of the clock included.
-  const LatencyHistogram& query() const noexcept { return query_; }
+  const measurement::LatencyHistogram& query() const noexcept { return query_; }
   /// By latency, the worst first.
   const std::vector<WorstTick>& worst() const noexcept { return worst_; }
   std::uint64_t work_max() const noexcept { return work_max_; }
@@ -53,7 +53,7 @@ class TickTally {
   void add_worst(const workers::TickRecord& record, std::uint64_t tick);
 
   double period_ns_, ns_per_tick_;
-  LatencyHistogram latency_, query_;
+  measurement::LatencyHistogram latency_, query_;
   std::uint64_t missed_ = 0, lost_ = 0, max_run_ = 0, work_max_ = 0;
   std::vector<WorstTick> worst_;
   double n_ = 0, work_mean_ = 0, ns_mean_ = 0, work_squares_ = 0, products_ = 0;  // of the line

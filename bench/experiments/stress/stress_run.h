@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 #include "bench/experiments/stress/family.h"
 #include "bench/experiments/stress/score.h"
 #include "bench/workers/contestant_process.h"

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/support/interrupt.h"
 #include "bench/support/random.h"
+#include "bench/support/system/interrupt.h"
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/sample_steps.h"
 

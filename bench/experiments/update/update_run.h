@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 #include "bench/experiments/update/update_row.h"
 #include "bench/ground_truth/ground_truth.h"
 #include "bench/meshes/deformation.h"

@@ -17,11 +17,11 @@
 #include "bench/regression/driver/cases.h"
 #include "bench/regression/driver/plugin_library.h"
 #include "bench/regression/driver/workloads.h"
-#include "bench/support/atomic_file.h"
 #include "bench/support/failures.h"
+#include "bench/support/files/atomic_file.h"
 #include "bench/support/interleaving.h"
-#include "bench/support/processor_time.h"
 #include "bench/support/random.h"
+#include "bench/support/system/processor_time.h"
 
 namespace touchmark::bench::regression::driver {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "bench/regression/driver/cases.h"
 #include "bench/regression/driver/commands.h"
-#include "bench/support/denormals.h"
 #include "bench/support/failures.h"
+#include "bench/support/system/denormals.h"
 
 namespace {
 

@@ -1,8 +1,8 @@
 /// The pinned meshes are generated, or in formats that core reads itself without libraries: so the gate needs
 /// neither assimp nor pugixml nor nlohmann-json, which exist for fewer processors than core does.
 #include "bench/meshes/mesh_import.h"
-#include "core/mesh_io/read_dae.h"
-#include "core/mesh_io/read_gltf.h"
+#include "core/mesh_io/dae/read_dae.h"
+#include "core/mesh_io/gltf/read_gltf.h"
 
 namespace touchmark {
 

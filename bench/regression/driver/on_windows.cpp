@@ -5,8 +5,8 @@
 #include <fcntl.h>
 #include <io.h>
 
-#include "bench/support/available_memory.h"
-#include "bench/support/system_limit.h"
+#include "bench/support/system/available_memory.h"
+#include "bench/support/system/system_limit.h"
 #include "core/mesh_io/input_file.h"
 
 namespace touchmark {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/results/column.h"
-#include "bench/support/csv_reader.h"
+#include "bench/support/files/csv_reader.h"
 #include "bench/support/numbers.h"
 
 namespace touchmark::bench::regression::gate {

@@ -11,8 +11,8 @@
 #include "bench/ground_truth/ground_truth.h"
 #include "bench/measurement/verified_passes.h"
 #include "bench/support/interleaving.h"
-#include "bench/support/interrupt.h"
 #include "bench/support/random.h"
+#include "bench/support/system/interrupt.h"
 #include "bench/workload/sample_steps.h"
 
 namespace touchmark::bench::regression::gate {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "bench/contestants/roster.h"
 #include "bench/ground_truth/workload_truths.h"
 #include "bench/measurement/result_row.h"
 #include "bench/regression/gate/judge.h"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "bench/results/validation/results_check.h"
-#include "bench/support/csv_reader.h"
+#include "bench/support/files/csv_reader.h"
 
 namespace touchmark::bench::results::validation {
 

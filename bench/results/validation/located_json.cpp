@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/support/text_file.h"
+#include "bench/support/files/text_file.h"
 
 namespace touchmark::bench::results::validation {
 namespace {

@@ -1,4 +1,5 @@
-/// Checks that a document is a run.json. Its schema is results/run.schema.json, built into the program.
+/// Checks that a document is a run.json. Its schema is bench/results/schemas/run.schema.json, built into the
+/// program.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace touchmark::bench::results::validation {
 
-/// results/run.schema.json, as it was when the program was built.
+/// bench/results/schemas/run.schema.json, as it was when the program was built.
 extern const char* const run_schema;
 
 void check_run(const std::string& path, const LocatedJson& run, Faults& faults);

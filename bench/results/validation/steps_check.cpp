@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/results/steps_file.h"
+#include "bench/support/files/packed_blocks.h"
+#include "bench/support/files/text_file.h"
 #include "bench/support/numbers.h"
-#include "bench/support/packed_blocks.h"
-#include "bench/support/text_file.h"
 
 namespace touchmark::bench::results::validation {
 namespace {

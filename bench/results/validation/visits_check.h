@@ -1,5 +1,5 @@
 /// Checks that a document is a visited.json, and that it is of the results.csv beside it. Its schema is
-/// results/visited.schema.json, built into the program.
+/// bench/results/schemas/visited.schema.json, built into the program.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace touchmark::bench::results::validation {
 
-/// Is results/visited.schema.json, as it was when the program was built.
+/// Is bench/results/schemas/visited.schema.json, as it was when the program was built.
 extern const char* const visits_schema;
 
 /// `results` is the results.csv beside the file, if there is one. Returns what the file holds: "15 rows".

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/support/csv_reader.h"
+#include "bench/support/files/csv_reader.h"
 #include "tests/bench/cli/run_touchmark.h"
 
 namespace touchmark::bench::cli {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/support/csv_reader.h"
+#include "bench/support/files/csv_reader.h"
 
 namespace touchmark::bench::cli {
 

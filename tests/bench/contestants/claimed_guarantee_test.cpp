@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/contestants/built_in.h"
 #include "bench/contestants/contestant.h"
-#include "bench/contestants/roster.h"
 #include "bench/meshes/meshes.h"
 
 namespace touchmark::bench::contestants {

@@ -1,11 +1,10 @@
-#include "bench/contestants/contestant_info.h"
-
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "bench/contestants/roster.h"
 #include "bench/support/failures.h"
 
 namespace touchmark::bench::contestants {

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/contestants/roster.h"
+
 namespace touchmark::bench::contestants {
 namespace {
 

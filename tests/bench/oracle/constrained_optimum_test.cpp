@@ -1,5 +1,5 @@
 /// The optimum of a proxy in a convex free space, on spaces whose optima are known by hand.
-#include "bench/oracle/constrained_optimum.h"
+#include "bench/oracle/exact/constrained_optimum.h"
 
 #include <array>
 #include <vector>

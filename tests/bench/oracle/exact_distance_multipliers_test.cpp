@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/oracle/exact_distance.h"
-#include "bench/oracle/interval_distance.h"
+#include "bench/oracle/exact/exact_distance.h"
+#include "bench/oracle/exact/interval_distance.h"
 #include "tests/bench/oracle/corner_case_triangles.h"
 #include "tests/bench/oracle/rational_hull.h"
 

@@ -1,4 +1,4 @@
-#include "bench/oracle/exact_distance.h"
+#include "bench/oracle/exact/exact_distance.h"
 
 #include <cmath>
 #include <limits>

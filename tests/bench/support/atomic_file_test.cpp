@@ -1,4 +1,4 @@
-#include "bench/support/atomic_file.h"
+#include "bench/support/files/atomic_file.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
 /// Quotas of processor time, read from made-up control groups.
-#include "bench/support/cpu_quota.h"
+#include "bench/support/system/cpu_quota.h"
 
 #include <filesystem>
 #include <string>

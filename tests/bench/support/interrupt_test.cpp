@@ -1,5 +1,5 @@
 /// Signals and deadlines, as a command asks for them between two requests.
-#include "bench/support/interrupt.h"
+#include "bench/support/system/interrupt.h"
 
 #include <chrono>
 #include <csignal>

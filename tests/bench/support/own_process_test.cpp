@@ -1,4 +1,4 @@
-#include "bench/support/own_process.h"
+#include "bench/support/system/own_process.h"
 
 #include <csignal>
 #include <cstdlib>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/support/interrupt.h"
+#include "bench/support/system/interrupt.h"
 
 namespace touchmark::bench::support {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench/support/packed_blocks.h"
+#include "bench/support/files/packed_blocks.h"
 
 #include <cstdint>
 #include <optional>

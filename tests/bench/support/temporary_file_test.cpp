@@ -1,5 +1,5 @@
 /// Tests that temporary files lie in TMPDIR, and that an unusable folder is named.
-#include "bench/support/temporary_file.h"
+#include "bench/support/files/temporary_file.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -5,7 +5,7 @@
 #include <sched.h>
 #include <unistd.h>
 
-#include "bench/contestants/roster.h"
+#include "bench/contestants/built_in.h"
 
 namespace touchmark::bench::workers {
 namespace {

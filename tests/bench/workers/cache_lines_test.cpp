@@ -1,5 +1,5 @@
 /// What valgrind leaves is read as it is meant, and a detector whose lines can be told beforehand has them.
-#include "bench/workers/cache_lines.h"
+#include "bench/workers/timing/cache_lines.h"
 
 #include <cstdlib>
 #include <fstream>

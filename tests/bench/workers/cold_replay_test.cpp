@@ -1,5 +1,5 @@
 /// Which steps are asked with emptied caches, and how much is walked over to empty them.
-#include "bench/workers/cold_replay.h"
+#include "bench/workers/timing/cold_replay.h"
 
 #include <cstddef>
 #include <numeric>

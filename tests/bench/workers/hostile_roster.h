@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 
 namespace touchmark::bench::workers {
 

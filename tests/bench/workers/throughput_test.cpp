@@ -1,5 +1,5 @@
 /// What is in a sample's time, told by the order of the calls.
-#include "bench/workers/throughput.h"
+#include "bench/workers/timing/throughput.h"
 
 #include <cstddef>
 #include <optional>

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/oracle/exact_distance.h"
+#include "bench/oracle/exact/exact_distance.h"
 #include "tests/bench/oracle/corner_case_triangles.h"
 
 namespace touchmark {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/oracle/exact_distance.h"
-#include "bench/oracle/interval_distance.h"
+#include "bench/oracle/exact/exact_distance.h"
+#include "bench/oracle/exact/interval_distance.h"
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
 #include "tests/bench/oracle/corner_case_triangles.h"

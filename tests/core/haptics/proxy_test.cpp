@@ -16,7 +16,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/oracle/constrained_optimum.h"
+#include "bench/oracle/exact/constrained_optimum.h"
 #include "bench/oracle/oracle.h"
 #include "bench/oracle/triangle.h"
 #include "bench/support/random.h"

@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "core/mesh_io/dae/read_dae.h"
 #include "core/mesh_io/mesh_io.h"
-#include "core/mesh_io/read_dae.h"
 #include "tests/temporary_folder.h"
 
 namespace touchmark {

@@ -1,5 +1,5 @@
 // The tree of bodies' boxes against every box looked at in turn.
-#include "core/scene/body_tree.h"
+#include "core/scene/body_tree/body_tree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Bounds of how far points reach in a direction, against every point looked at.
-#include "core/scene/support_table.h"
+#include "core/scene/round/support_table.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "bench/oracle/exact_winding.h"
+#include "bench/oracle/exact/exact_winding.h"
 #include "bench/oracle/judge.h"
 #include "bench/oracle/oracle.h"
 #include "core/brute_force/brute_force.h"

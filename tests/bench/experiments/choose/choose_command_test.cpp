@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/support/csv_reader.h"
+#include "bench/support/files/csv_reader.h"
 #include "bench/support/table.h"
 #include "tests/bench/cli/csv_fields.h"
 #include "tests/bench/cli/run_touchmark.h"

@@ -1,5 +1,5 @@
 /// Contact levels of detail by a clock that counts what was looked at, so that every run is the same.
-#include "bench/experiments/papers/contact_levels.h"
+#include "bench/experiments/papers/choi_sung/contact_levels.h"
 
 #include <memory>
 #include <optional>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/experiments/papers/level_switch.h"
+#include "bench/experiments/papers/choi_sung/level_switch.h"
 #include "bench/experiments/papers/paper_trace.h"
 #include "bench/meshes/meshes.h"
 

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/experiments/proxy/tally.h"
 #include "bench/meshes/surface_builder.h"
+#include "bench/proxies/tally.h"
 
-namespace touchmark::bench::experiments::proxy {
+namespace touchmark::bench::proxies {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -215,4 +215,4 @@ TEST(ProxyJudge, SumsTheEnergyOfAClosedTurn) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench::experiments::proxy
+}  // namespace touchmark::bench::proxies

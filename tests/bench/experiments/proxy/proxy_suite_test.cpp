@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/contestants/roster.h"
+#include "bench/contestants/built_in.h"
 #include "bench/experiments/proxy/proxy_run.h"
 
 namespace touchmark::bench::experiments::proxy {

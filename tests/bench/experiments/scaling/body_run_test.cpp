@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/contestants/contestant_info.h"
+#include "bench/contestants/roster.h"
 #include "bench/contestants/scene_player.h"
 
 namespace touchmark::bench::experiments::scaling {

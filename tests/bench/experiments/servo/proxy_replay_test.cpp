@@ -12,7 +12,7 @@
 #include "bench/contestants/contestant_of.h"
 #include "bench/contestants/guided_proxy.h"
 #include "bench/meshes/meshes.h"
-#include "bench/workers/servo_stretch.h"
+#include "bench/workers/timing/run_servo.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/bench/experiments/servo/simulated_clock.h"
 
@@ -70,7 +70,7 @@ class ProxyReplayTest : public testing::Test {
   }
 
   workload::Workload workload_;
-  proxy::WayOracle oracle_{workload_.mesh};
+  proxies::WayOracle oracle_{workload_.mesh};
 };
 
 TEST_F(ProxyReplayTest, ComesToTheSameThoughTicksWereLost) {

@@ -9,16 +9,16 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/experiments/servo/histogram.h"
 #include "bench/experiments/servo/load.h"
 #include "bench/experiments/servo/real_time_host.h"
 #include "bench/experiments/servo/servo_row.h"
 #include "bench/experiments/servo/servo_run.h"
-#include "bench/experiments/servo/servo_trace.h"
 #include "bench/experiments/servo/tick_tally.h"
 #include "bench/experiments/servo/verdict.h"
+#include "bench/measurement/histogram.h"
 #include "bench/meshes/meshes.h"
-#include "bench/workers/real_time.h"
+#include "bench/workers/timing/real_time.h"
+#include "bench/workload/paced_workload.h"
 #include "tests/bench/experiments/servo/simulated_clock.h"
 #include "tests/temporary_folder.h"
 
@@ -177,7 +177,7 @@ TEST(Histogram, KeepsTheMaximumAndPercentilesWithinAThirtySecond) {
   std::mt19937_64 random(7);
   std::lognormal_distribution<double> times(8, 2);
   std::vector<std::int64_t> all;
-  LatencyHistogram histogram;
+  measurement::LatencyHistogram histogram;
   for (int i = 0; i < 20'000; ++i) {
     all.push_back(static_cast<std::int64_t>(times(random)));
     histogram.add(all.back());
@@ -195,7 +195,7 @@ TEST(Histogram, KeepsTheMaximumAndPercentilesWithinAThirtySecond) {
 }
 
 TEST(Histogram, BucketsAscendAndHoldEveryTickOnce) {
-  LatencyHistogram histogram;
+  measurement::LatencyHistogram histogram;
   constexpr std::int64_t longest = std::numeric_limits<std::int64_t>::max();
   for (int power = 0; power < 63; ++power)
     for (const std::int64_t around : {-1, 0, 1}) histogram.add((std::int64_t{1} << power) + around);
@@ -203,7 +203,7 @@ TEST(Histogram, BucketsAscendAndHoldEveryTickOnce) {
   histogram.add(-5);
   std::uint64_t ticks = 0;
   std::int64_t before = -1;
-  for (const LatencyHistogram::Bucket& bucket : histogram.buckets()) {
+  for (const measurement::LatencyHistogram::Bucket& bucket : histogram.buckets()) {
     EXPECT_GT(bucket.up_to_ns, before);
     before = bucket.up_to_ns;
     ticks += bucket.ticks;
@@ -305,12 +305,8 @@ TEST(ServoTrace, GoesByTimeAtAnyRate) {
   const TriangleMesh mesh = meshes::load_mesh("icosphere:2");
   workload::Selection selection;
   selection.radius = {0.5, true};
-  ServoSettings settings;
-  settings.ticks = 41;
   const auto at = [&](double rate, std::uint64_t ticks) {
-    settings.rate_hz = rate;
-    settings.ticks = ticks;
-    return workload_by_time("icosphere:2", mesh, selection, "slide", settings).traces.front();
+    return workload::workload_by_time("icosphere:2", mesh, selection, "slide", {rate, ticks}).traces.front();
   };
   const auto usual = at(1000, 11), fast = at(4000, 41), slow = at(500, 6);
   ASSERT_EQ(fast.size(), 41u);
@@ -320,9 +316,9 @@ TEST(ServoTrace, GoesByTimeAtAnyRate) {
   for (std::size_t i = 0; i < slow.size(); ++i)
     EXPECT_EQ(slow[i].probe.center, usual[2 * i].probe.center) << i;
   EXPECT_LT((fast[2].probe.center - 0.5 * (usual[0].probe.center + usual[1].probe.center)).norm(), 1e-15);
-  EXPECT_TRUE(is_resampled_shape("slide", 4000));
-  EXPECT_FALSE(is_resampled_shape("slide", 1000));
-  EXPECT_FALSE(is_resampled_shape("hand.csv", 4000));
+  EXPECT_TRUE(workload::is_resampled_shape("slide", 4000));
+  EXPECT_FALSE(workload::is_resampled_shape("slide", 1000));
+  EXPECT_FALSE(workload::is_resampled_shape("hand.csv", 4000));
 }
 
 TEST(RealTime, MemoryIsNotLockedPastALimit) {

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "bench/workers/paced_replay.h"
+#include "bench/workers/timing/paced_replay.h"
 
 namespace touchmark::bench::experiments::servo {
 

@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/experiments/stress/shared_features.h"
-#include "bench/oracle/exact_distance.h"
+#include "bench/oracle/exact/exact_distance.h"
 #include "bench/oracle/oracle.h"
 #include "tests/bench/oracle/corner_case_triangles.h"
 #include "tests/own_forms.h"

@@ -1,0 +1,190 @@
+// The distance between a segment and a triangle is zero where they cross, and else lies between an end of the
+// segment and the triangle, a corner and the segment, or the insides of the segment and of an edge.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bench/oracle/exact/exact_distance.h"
+#include "bench/oracle/exact/exact_integers.h"
+
+namespace touchmark::bench::oracle {
+namespace {
+
+using exact::Grid;
+using exact::Integer;
+using exact::Vector;
+
+/// `path` is the segment, from the origin; `w` are the triangle's corners.
+struct Configuration {
+  Vector path;
+  std::array<Vector, 3> w;
+  Integer squared_radius;
+};
+
+bool cross_through_the_face(const Configuration& c) {
+  const Vector normal = cross(c.w[1] - c.w[0], c.w[2] - c.w[0]);
+  const Integer start = -dot(c.w[0], normal);
+  const Integer drop = -dot(c.path, normal);  // start - end
+  // In the plane (or no plane): if they meet at all, then at an end, a corner or an edge.
+  if (drop == 0) return false;
+  const bool reaches = drop > 0 ? (start >= 0 && start <= drop) : (start <= 0 && start >= drop);
+  if (!reaches) return false;
+  // The crossing point is start / drop of the path. Times drop, which squared is positive:
+  const Vector q = scaled(start, c.path);
+  std::array<Vector, 3> from_q;
+  for (std::size_t i = 0; i < 3; ++i) from_q[i] = scaled(drop, c.w[i]) - q;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (dot(cross(from_q[i], from_q[(i + 1) % 3]), normal) < 0) return false;
+  return true;
+}
+
+/// How the distance between the insides of the path and of an edge compares; greater if the least distance of
+/// their lines is not inside both.
+std::strong_ordering compare_inside(const Configuration& c, const Vector& w, const Vector& v) {
+  const Vector edge = v - w;
+  const Vector normal = cross(c.path, edge);
+  const Integer determinant = dot(normal, normal);
+  if (determinant == 0) return std::strong_ordering::greater;
+  // Least |w + t edge - s path|^2: s path.path - t path.edge = path.w and -s path.edge + t edge.edge =
+  // -edge.w.
+  const Integer a = dot(c.path, c.path), b = dot(c.path, edge), e = dot(edge, edge);
+  const Integer d = dot(c.path, w), f = dot(edge, w);
+  const Integer s = d * e - b * f, t = b * d - a * f;
+  if (s < 0 || s > determinant || t < 0 || t > determinant) return std::strong_ordering::greater;
+  const Integer height = dot(w, normal);
+  return exact::order(Integer(height * height), Integer(c.squared_radius * determinant));
+}
+
+/// How the distance between a corner and the path compares.
+std::strong_ordering compare_corner(const Configuration& c, const Vector& w) {
+  const Integer along = dot(w, c.path), length = dot(c.path, c.path);
+  if (along <= 0) return exact::order(dot(w, w), c.squared_radius);
+  if (along >= length) {
+    const Vector to_end = w - c.path;
+    return exact::order(dot(to_end, to_end), c.squared_radius);
+  }
+  const Vector moment = cross(w, c.path);
+  return exact::order(dot(moment, moment), Integer(c.squared_radius * length));
+}
+
+/// How the distance between the path's end and the triangle compares: over the face to the plane, else to the
+/// nearest of its sides.
+std::strong_ordering compare_end(const Configuration& c) {
+  const std::array<Vector, 3> w = {c.w[0] - c.path, c.w[1] - c.path, c.w[2] - c.path};
+  const Vector normal = cross(w[1] - w[0], w[2] - w[0]);
+  bool over_face = !exact::is_zero(normal);
+  for (std::size_t i = 0; i < 3 && over_face; ++i) over_face = dot(cross(w[i], w[(i + 1) % 3]), normal) >= 0;
+  if (over_face) {
+    const Integer height = dot(w[0], normal);
+    return exact::order(Integer(height * height), Integer(c.squared_radius * dot(normal, normal)));
+  }
+  std::strong_ordering least = std::strong_ordering::greater;
+  for (std::size_t i = 0; i < 3; ++i) {
+    // From a corner's point of view the side is a path, and the end a corner.
+    const Vector& from = w[i];
+    const Configuration side{w[(i + 1) % 3] - from, {}, c.squared_radius};
+    least = exact::lesser(least, compare_corner(side, Vector{0, 0, 0} - from));
+  }
+  return least;
+}
+
+/// The part of the path as seen from its start, on a grid as much finer as the fraction's last digit asks
+/// for.
+template <class AnyTriangle>
+Configuration part_of(const Vec3& from, const Vec3& to, double fraction, const AnyTriangle& triangle,
+                      double radius, double more) {
+  Grid grid;
+  grid.add(from);
+  grid.add(to);
+  grid.add(triangle);
+  grid.add(radius);
+  grid.add(more);
+  const exact::Parts parts = exact::parts_of(fraction);
+  Integer part(static_cast<long>(parts.mantissa)), fine(1);
+  if (parts.mantissa != 0 && parts.exponent < 0) fine <<= static_cast<mp_bitcnt_t>(-parts.exponent);
+  const Vector origin = grid(from);
+  const Integer r = fine * (grid(radius) + grid(more));
+  Configuration c{scaled(part, grid(to) - origin), {}, Integer(r * r)};
+  const std::array<Vector, 3> corners = grid(triangle);
+  for (std::size_t i = 0; i < 3; ++i) c.w[i] = scaled(fine, corners[i] - origin);
+  return c;
+}
+
+template <class AnyTriangle>
+std::strong_ordering compare_on_path(const Vec3& from, const Vec3& to, double fraction,
+                                     const AnyTriangle& triangle, double radius, double more) {
+  if (std::isinf(radius)) return std::strong_ordering::less;
+  return compare_end(part_of(from, to, fraction, triangle, radius, more));
+}
+
+template <class AnyTriangle>
+std::strong_ordering compare_part(const Vec3& from, const Vec3& to, double fraction,
+                                  const AnyTriangle& triangle, double radius, double more) {
+  if (std::isinf(radius)) return std::strong_ordering::less;
+  const Configuration c = part_of(from, to, fraction, triangle, radius, more);
+  std::strong_ordering least = exact::lesser(compare_distance(from, triangle, radius, more), compare_end(c));
+  if (cross_through_the_face(c)) least = exact::lesser(least, exact::order(Integer(0), c.squared_radius));
+  for (std::size_t i = 0; i < 3; ++i) {
+    least = exact::lesser(least, compare_corner(c, c.w[i]));
+    least = exact::lesser(least, compare_inside(c, c.w[i], c.w[(i + 1) % 3]));
+  }
+  return least;
+}
+
+template <class AnyTriangle>
+std::strong_ordering compare_segment(const Vec3& from, const Vec3& to, const AnyTriangle& triangle,
+                                     double radius, double more) {
+  if (std::isinf(radius)) return std::strong_ordering::less;
+  std::strong_ordering least = exact::lesser(compare_distance(from, triangle, radius, more),
+                                             compare_distance(to, triangle, radius, more));
+  if (least == std::strong_ordering::less) return least;
+  Grid grid;
+  grid.add(from);
+  grid.add(to);
+  grid.add(triangle);
+  grid.add(radius);
+  grid.add(more);
+  const Vector origin = grid(from);
+  const Integer r = grid(radius) + grid(more);
+  const std::array<Vector, 3> corners = grid(triangle);
+  const Configuration c{
+      grid(to) - origin, {corners[0] - origin, corners[1] - origin, corners[2] - origin}, Integer(r * r)};
+  if (cross_through_the_face(c)) return exact::lesser(least, exact::order(Integer(0), c.squared_radius));
+  for (std::size_t i = 0; i < 3; ++i) {
+    least = exact::lesser(least, compare_corner(c, c.w[i]));
+    least = exact::lesser(least, compare_inside(c, c.w[i], c.w[(i + 1) % 3]));
+    if (least == std::strong_ordering::less) return least;
+  }
+  return least;
+}
+
+}  // namespace
+
+std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
+                                              const Triangle& triangle, double radius, double more) {
+  return compare_on_path(from, to, fraction, triangle, radius, more);
+}
+std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
+                                              const PlacedTriangle& triangle, double radius, double more) {
+  return compare_on_path(from, to, fraction, triangle, radius, more);
+}
+
+std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
+                                           const Triangle& triangle, double radius, double more) {
+  return compare_part(from, to, fraction, triangle, radius, more);
+}
+std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
+                                           const PlacedTriangle& triangle, double radius, double more) {
+  return compare_part(from, to, fraction, triangle, radius, more);
+}
+
+std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const Triangle& triangle,
+                                              double radius, double more) {
+  return compare_segment(from, to, triangle, radius, more);
+}
+std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to,
+                                              const PlacedTriangle& triangle, double radius, double more) {
+  return compare_segment(from, to, triangle, radius, more);
+}
+
+}  // namespace touchmark::bench::oracle

@@ -1,0 +1,25 @@
+/// A stretch of a paced loop in the worker, with a contestant or with nothing asked. Runs in a worker.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "bench/contestants/contestant.h"
+#include "bench/contestants/guided_proxy.h"
+#include "bench/workers/shared_workload.h"
+#include "bench/workers/timing/paced_replay.h"
+#include "bench/workers/worker_protocol.h"
+
+namespace touchmark::bench::workers {
+
+/// The tick records lie in the buffers then. The first stretch of the process locks its memory. The first
+/// that steps a proxy makes it, of the contestant and its mesh, and places it.
+ServoStretch run_servo(contestants::Contestant& contestant, std::optional<contestants::GuidedProxy>& proxy,
+                       const std::function<TriangleMesh()>& mesh, const workload::QueryTrace& trace,
+                       const request::Servo& request, const OutputBuffers& buffers);
+
+/// Steps the proxy after the goals that the pacer names; the clock is read before and after the whole step.
+void step_paced(contestants::GuidedProxy& proxy, const workload::QueryTrace& trace,
+                PacedReplay& pacer) noexcept;
+
+}  // namespace touchmark::bench::workers
