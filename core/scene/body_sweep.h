@@ -34,8 +34,7 @@ Around around_way(const Sweep& sweep, double error) noexcept;
 double path_length(const Vec3& from, const Vec3& to) noexcept;
 
 /// Everything named here outlives it. The sweep is finite, its radius at least 0.
-template <Detector D>
-requires AnswersSweep<D>
+template <AnswersSweep D>
 class BodySweep {
  public:
   BodySweep(const Shape<D>& shape, const PlacedBody& placed, std::uint32_t body, const Sweep& sweep,

@@ -24,8 +24,11 @@
 
 namespace touchmark {
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+/// A detector that can be the shape of a body.
+template <class D>
+concept BodyDetector = AnswersNearest<D> && AnswersContacts<D>;
+
+template <BodyDetector D>
 class SharedScene;
 
 /// What the answers of a scene keep to: the bound of a distance, exact decisions and names.
@@ -37,8 +40,7 @@ inline constexpr Accuracy posed_certified = {
 /// Contact, the nearest body and its nearest triangle are decided for the exact images of the stored
 /// triangles under the stored poses. Shapes and bodies are added, moved and removed between queries, never
 /// meanwhile: shared_scene.h is for threads.
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 class Scene {
  public:
   using Options = typename D::Options;

@@ -14,8 +14,7 @@
 
 namespace touchmark {
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 template <class Ask>
 void Scene<D>::ask_listed(const Vec3& from, double length, const double& limit, Session& session,
                           std::span<const BodyId> done, const Ask& ask) const noexcept {
@@ -26,8 +25,7 @@ void Scene<D>::ask_listed(const Vec3& from, double length, const double& limit, 
   }
 }
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 template <class LeftOut, class Ask>
 void Scene<D>::ask_unlisted(const Vec3& from, const Vec3& to, double length, const double& limit,
                             Session& session, const LeftOut& is_left_out, const Ask& ask) const noexcept {
@@ -50,8 +48,7 @@ void Scene<D>::ask_unlisted(const Vec3& from, const Vec3& to, double length, con
   session.work.boxes += bodies_.tree().for_each_within(region, limit, visit);
 }
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 template <class Ask>
 void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, bool was_compared,
                         Session& session, const Ask& ask) const noexcept {
@@ -88,8 +85,7 @@ void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, b
   near.conclude(from, bodies_);
 }
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 template <class Ask>
 double Scene<D>::with_query(const Shape<D>& shape, std::uint32_t body, const SeenBody& seen,
                             typename D::Session& own, const Ask& ask) const noexcept {
@@ -97,8 +93,7 @@ double Scene<D>::with_query(const Shape<D>& shape, std::uint32_t body, const See
   return ask(BodyQuery<D>(shape, seen, body, own));
 }
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 bool Scene<D>::touches(const Probe& probe, Session& session) const noexcept {
   if (!(probe.radius >= 0) || !probe.center.allFinite()) return false;
   const NearSurface::Found answer = ask_surface(
@@ -122,10 +117,9 @@ bool Scene<D>::touches(const Probe& probe, Session& session) const noexcept {
   return touching;
 }
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D> std::optional<BodyContact> Scene<D>::nearest_body(
-    const Probe& probe, double reach, Session& session)
-const noexcept {
+template <BodyDetector D>
+std::optional<BodyContact> Scene<D>::nearest_body(const Probe& probe, double reach,
+                                                  Session& session) const noexcept {
   if (!(reach >= 0) || !probe.center.allFinite()) return std::nullopt;
   BodyContact listed;
   const NearSurface::Found answer =
@@ -152,10 +146,9 @@ const noexcept {
   return BodyContact{bodies_.id(nearest.best()->body), *contact};
 }
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D> std::optional<BodyImpact> Scene<D>::first_hit_body(
-    const Sweep& sweep, Session& session)
-const noexcept requires AnswersSweep<D> {
+template <BodyDetector D>
+std::optional<BodyImpact> Scene<D>::first_hit_body(const Sweep& sweep,
+                                                   Session& session) const noexcept requires AnswersSweep<D> {
   if (!(sweep.radius >= 0) || !sweep.from.allFinite() || !sweep.to.allFinite()) return std::nullopt;
   session.last.question = {};  // `prepare` asks no sweep again
   std::optional<Impact> first;
@@ -219,8 +212,7 @@ class FirstOfContacts {
   std::size_t count_ = 0;
 };
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 template <class Found>
 void Scene<D>::for_each_contact(const Probe& probe, double reach, Session& session,
                                 const Found& found) const noexcept {
@@ -239,10 +231,9 @@ void Scene<D>::for_each_contact(const Probe& probe, double reach, Session& sessi
            });
 }
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D> std::size_t Scene<D>::contacts_of_bodies(
-    const Probe& probe, double reach, Session& session, std::span<BodyContact> into)
-const noexcept {
+template <BodyDetector D>
+std::size_t Scene<D>::contacts_of_bodies(const Probe& probe, double reach, Session& session,
+                                         std::span<BodyContact> into) const noexcept {
   FirstOfContacts<BodyContact> first(into);
   for_each_contact(probe, reach, session, [&](std::uint32_t body, const Contact& contact) {
     first.add({bodies_.id(body), contact});
@@ -250,19 +241,15 @@ const noexcept {
   return first.finish();
 }
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D> std::size_t Scene<D>::contacts(const Probe& probe,
-                                                                                double reach,
-                                                                                Session& session,
-                                                                                std::span<Contact> into)
-const noexcept {
+template <BodyDetector D>
+std::size_t Scene<D>::contacts(const Probe& probe, double reach, Session& session,
+                               std::span<Contact> into) const noexcept {
   FirstOfContacts<Contact> first(into);
   for_each_contact(probe, reach, session, [&](std::uint32_t, const Contact& contact) { first.add(contact); });
   return first.finish();
 }
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 void Scene<D>::prepare(Session& session) const noexcept requires Prepares<D> {
   // In free space a query is one comparison, and what it reads is small; but who publishes a frame leaves it
   // and its code outside the caches. To ask again brings them back.
@@ -288,8 +275,7 @@ void Scene<D>::prepare(Session& session) const noexcept requires Prepares<D> {
   }
 }
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 bool Scene<D>::build_near(const Probe& probe, double distance, Session& session) const {
   const double reach = probe.radius + distance;
   if (!(reach >= 0) || !probe.center.allFinite()) return false;

@@ -21,8 +21,7 @@ namespace touchmark {
 
 /// One thread publishes; any number of threads read, each with a session of its own. Sessions go on from
 /// frame to frame.
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 class SharedScene {
  public:
   SharedScene() : copies_{Scene<D>(), Scene<D>()} { copies_[1] = Scene<D>(copies_[0]); }

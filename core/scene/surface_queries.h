@@ -11,8 +11,7 @@
 
 namespace touchmark {
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 bool Scene<D>::list_surface(const Vec3& point, double reach, Session& session) const noexcept {
   const std::optional<double> radius = session.surface.start(point, reach, bodies_);
   if (!radius) return false;
@@ -44,8 +43,7 @@ bool Scene<D>::list_surface(const Vec3& point, double reach, Session& session) c
   return true;
 }
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 template <class Ask>
 NearSurface::Found Scene<D>::ask_surface(const Vec3& point, const LastQuestion& question, Session& session,
                                          const Ask& ask) const noexcept {
@@ -64,8 +62,7 @@ NearSurface::Found Scene<D>::ask_surface(const Vec3& point, const LastQuestion& 
   return Found::unknown;
 }
 
-template <Detector D>
-requires AnswersNearest<D> && AnswersContacts<D>
+template <BodyDetector D>
 bool Scene<D>::ask_again(Session& session) const noexcept {
   using Query = LastQuestion::Query;
   const SceneQuestion last = session.last;
