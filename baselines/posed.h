@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "baselines/reach.h"
 #include "core/aabb.h"
 #include "core/detector.h"
 #include "core/scene/body.h"
@@ -36,10 +37,6 @@ inline Accuracy with_poses(Accuracy accuracy, double largest_coordinate) noexcep
   accuracy.absolute += roundings * largest_coordinate;
   accuracy.decides_exactly = accuracy.names_exactly = false;
   return accuracy;
-}
-
-inline double largest_coordinate(const Aabb& bounds) noexcept {
-  return bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).maxCoeff();
 }
 
 /// Returns a box that holds the image of a box under a pose, rounding included.

@@ -22,6 +22,11 @@ enum class Asking { checked, plain };
 /// for none.
 inline constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
 
+/// Returns the largest absolute coordinate of the box.
+inline double largest_coordinate(const Aabb& bounds) noexcept {
+  return bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).maxCoeff();
+}
+
 /// True if the mesh is farther away than the reach along some axis. Rounding keeps the order of numbers, so
 /// nothing within the reach is told to be beyond it.
 inline bool out_of_reach(const Aabb& bounds, const Vec3& center, double reach) noexcept {
@@ -36,7 +41,8 @@ inline bool out_of_reach(const Aabb& bounds, const Sweep& sweep) noexcept {
 }
 
 /// The reach, or a little more than the distance to the farthest corner of the mesh's box when that is less:
-/// the same triangles, as a number that rivals can compute with. Negative and NaN stay as they are.
+/// the same triangles, as a number that rivals can compute with. A negative reach stays as it is, and NaN
+/// counts as infinite.
 inline double finite_reach(const Aabb& bounds, const Vec3& center, double reach) noexcept {
   const Vec3 farthest = (bounds.min - center).cwiseAbs().cwiseMax((bounds.max - center).cwiseAbs());
   constexpr double roundings = 1 + 8 * std::numeric_limits<double>::epsilon();

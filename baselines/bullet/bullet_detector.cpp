@@ -111,9 +111,9 @@ struct World {
 
 }  // namespace
 
-struct BulletDetector::Model {
-  Model(const TriangleMesh& mesh, const Options& chosen)
-      : options(chosen), connectivity(mesh), ids(mesh.triangle_ids()) {
+struct BulletDetector::Model : RivalModel<BulletDetector::Options> {
+  Model(const TriangleMesh& mesh, const Options& chosen) : RivalModel(mesh, chosen), connectivity(mesh) {
+    ids = mesh.triangle_ids();
     if (options.frame == Frame::fitted) view = {BulletView::fitted(mesh)};
     if (options.method == Method::callback) triangles = prepare(mesh);
     set_bounds(mesh);
@@ -140,8 +140,7 @@ struct BulletDetector::Model {
 
   void update(const TriangleMesh& mesh) {
     set_bounds(mesh);
-    for (PreparedTriangle& triangle : triangles)
-      if (has_moved(triangle, mesh)) triangle = prepare(mesh, triangle.index);
+    follow(mesh);
     for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = view.into(mesh.vertices()[i]);
     btVector3 low, high;
     arrays->calculateAabbBruteForce(low, high);
@@ -165,32 +164,25 @@ struct BulletDetector::Model {
                                                          bt_vector(high + pad));
   }
 
-  Options options;
   Connectivity connectivity;
-  Aabb bounds;
-  TriangleIds ids;
   View view;
-  double largest_coordinate = 0;            ///< in Bullet's frame
-  std::vector<PreparedTriangle> triangles;  ///< method callback only
+  double largest_coordinate = 0;  ///< in Bullet's frame
   std::vector<btVector3> vertices;
   std::vector<int> corners_of_bullet;
   std::unique_ptr<btTriangleIndexVertexArray> arrays;
   std::unique_ptr<btBvhTriangleMeshShape> shape;
 };
 
-struct BulletDetector::Session::State : World {
+struct BulletDetector::State : World {
   using World::World;
-  std::uint32_t last = no_triangle;  ///< checked: of the last contact; plain: the last that was nearest
 };
 
-void BulletDetector::Session::forget() noexcept {
-  if (state_) state_->last = no_triangle;
-}
-
-BulletDetector::Session::State& BulletDetector::state(Session& session) const {
-  const bool fits = session.state_ && session.state_->mesh_object.getCollisionShape() == model_->shape.get();
-  if (!fits) session.state_ = make_hidden<Session::State>(*model_->shape);
-  return *session.state_;
+BulletDetector::State& BulletDetector::state(Session& session) const {
+  if (!session.state || session.state->mesh_object.getCollisionShape() != model_->shape.get()) {
+    session.state = make_hidden<State>(*model_->shape);
+    session.last = no_triangle;
+  }
+  return *session.state;
 }
 
 BulletDetector::Precision BulletDetector::precision() noexcept {
@@ -220,12 +212,12 @@ Vec3 direction(const Vec3& from, const Vec3& to, const btVector3& otherwise) {
 struct BulletDetector::Queries {
   const Model& model;
   Session& session;
-  Session::State& state;
+  State& state;
 
   std::optional<Contact> deepest_contact(const Vec3& center, double reach) const {
     const Deepest deepest = contact_test(state, model.view, center, reach);
     session.work.triangles += deepest.reported;
-    state.last = deepest.found ? static_cast<std::uint32_t>(deepest.index) : no_triangle;
+    session.last = deepest.found ? static_cast<std::uint32_t>(deepest.index) : no_triangle;
     if (!deepest.found) return std::nullopt;
     const Vec3 point = model.view.back(deepest.on_mesh);
     const double distance = std::max(0.0, reach + static_cast<double>(deepest.depth) / model.view.scale);
@@ -233,14 +225,12 @@ struct BulletDetector::Queries {
                    model.ids[static_cast<std::size_t>(deepest.index)]};
   }
 
-  bool checked() const { return model.options.query == Asking::checked; }
-
   /// Bullet's narrow phase for the triangle of the last contact: what its contact test comes to for each one.
   bool touches_last(const Vec3& center, double radius) const {
-    if (!checked() || state.last >= model.corners_of_bullet.size() / 3) return false;
+    if (!model.checked() || session.last >= model.corners_of_bullet.size() / 3) return false;
     const auto corner = [&](std::size_t i) {
       return model
-          .vertices[static_cast<std::size_t>(model.corners_of_bullet[3 * std::size_t{state.last} + i])];
+          .vertices[static_cast<std::size_t>(model.corners_of_bullet[3 * std::size_t{session.last} + i])];
     };
     ++session.work.triangles;
     state.ball.setUnscaledRadius(static_cast<btScalar>(model.view.scale * radius));
@@ -254,8 +244,8 @@ struct BulletDetector::Queries {
   bool touches(const Vec3& center, double radius) const {
     if (model.options.method == Method::contact)
       return touches_last(center, radius) || deepest_contact(center, radius).has_value();
-    return checked() ? touches_any(center, radius)
-                     : std::sqrt(reported_within(center, radius).squared_distance) <= radius;
+    return model.checked() ? touches_any(center, radius)
+                           : std::sqrt(reported_within(center, radius).squared_distance) <= radius;
   }
 
   /// Bullet's traversal cannot be ended, but what it reports after the first touch is not measured.
@@ -264,12 +254,12 @@ struct BulletDetector::Queries {
       ++session.work.triangles;
       return std::sqrt(squared_distance(model.triangles[triangle], center)) <= radius;
     };
-    if (state.last < model.triangles.size() && touches(state.last)) return true;
-    state.last = no_triangle;
+    if (session.last < model.triangles.size() && touches(session.last)) return true;
+    session.last = no_triangle;
     model.near(center, center, radius, [&](std::uint32_t triangle) {
-      if (state.last == no_triangle && touches(triangle)) state.last = triangle;
+      if (session.last == no_triangle && touches(triangle)) session.last = triangle;
     });
-    return state.last != no_triangle;
+    return session.last != no_triangle;
   }
 
   /// The least candidate of the triangles that Bullet reports within the reach.
@@ -286,14 +276,14 @@ struct BulletDetector::Queries {
     const Candidate best = reported_within(center, reach);
     if (best.index >= model.triangles.size() || !(std::sqrt(best.squared_distance) <= reach))
       return std::nullopt;
-    state.last = best.index;
+    session.last = best.index;
     return contact_on(model.triangles[best.index], center, model.ids[best.index]);
   }
 
   /// The last triangle's distance bounds the nearest one's.
   double warm_reach(const Vec3& center, double reach) const {
-    if (checked() && state.last >= model.triangles.size()) return reach;
-    const std::uint32_t last = state.last < model.triangles.size() ? state.last : 0;
+    if (model.checked() && session.last >= model.triangles.size()) return reach;
+    const std::uint32_t last = session.last < model.triangles.size() ? session.last : 0;
     ++session.work.triangles;
     return std::min(reach, std::sqrt(squared_distance(model.triangles[last], center)));
   }
@@ -303,7 +293,7 @@ struct BulletDetector::Queries {
       const std::optional<Contact> contact =
           nearest_by_growing(model.bounds, center, warm_reach(center, reach),
                              [&](double within) { return exact_contact(center, within); });
-      if (checked() && !contact) state.last = no_triangle;
+      if (model.checked() && !contact) session.last = no_triangle;
       return contact;
     }
     return nearest_by_growing(model.bounds, center, reach,
@@ -340,11 +330,7 @@ struct BulletDetector::Queries {
 };
 
 BulletDetector BulletDetector::build(const TriangleMesh& mesh, const Options& options) {
-  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
-  if (mesh.size() > most || mesh.vertices().size() > most) {
-    throw MeshError("Bullet counts in int: " + std::to_string(std::max(mesh.size(), mesh.vertices().size())) +
-                    " triangles or vertices are more than " + std::to_string(most));
-  }
+  require_int_counts("Bullet", mesh);
   return BulletDetector(make_hidden<Model>(mesh, options));
 }
 
@@ -354,28 +340,19 @@ void BulletDetector::update(const TriangleMesh& mesh) {
 }
 
 bool BulletDetector::touches(const Probe& probe, Session& session) const noexcept {
-  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, probe.center, probe.radius)) {
-    session.forget();
-    return false;
-  }
-  const double radius = finite_reach(model_->bounds, probe.center, probe.radius);
-  if (!answerable(probe.center, radius)) return false;
-  return Queries{*model_, session, state(session)}.touches(probe.center, radius);
+  const std::optional<double> radius = model_->reach_to_ask(probe.center, probe.radius, session.last);
+  return radius && Queries{*model_, session, state(session)}.touches(probe.center, *radius);
 }
 
 std::optional<Contact> BulletDetector::nearest(const Probe& probe, double reach,
                                                Session& session) const noexcept {
-  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, probe.center, reach)) {
-    session.forget();
-    return std::nullopt;
-  }
-  const double finite = finite_reach(model_->bounds, probe.center, reach);
-  if (!answerable(probe.center, finite)) return std::nullopt;
-  return Queries{*model_, session, state(session)}.nearest(probe.center, finite);
+  const std::optional<double> finite = model_->reach_to_ask(probe.center, reach, session.last);
+  if (!finite) return std::nullopt;
+  return Queries{*model_, session, state(session)}.nearest(probe.center, *finite);
 }
 
 std::optional<Impact> BulletDetector::first_hit(const Sweep& asked, Session& session) const noexcept {
-  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, asked)) return std::nullopt;
+  if (model_->checked() && out_of_reach(model_->bounds, asked)) return std::nullopt;
   const Sweep sweep{asked.from, asked.to, finite_reach(model_->bounds, asked.from, asked.radius)};
   if (!answerable(sweep.from, sweep.radius) || !answerable(sweep.to, 0)) return std::nullopt;
   const Queries ask{*model_, session, state(session)};
@@ -385,8 +362,7 @@ std::optional<Impact> BulletDetector::first_hit(const Sweep& asked, Session& ses
 std::size_t BulletDetector::bytes() const noexcept {
   return model_->shape->getOptimizedBvh()->calculateSerializeBufferSize() +
          model_->vertices.capacity() * sizeof(btVector3) +
-         model_->corners_of_bullet.capacity() * sizeof(int) +
-         model_->triangles.capacity() * sizeof(PreparedTriangle) + model_->ids.bytes();
+         model_->corners_of_bullet.capacity() * sizeof(int) + model_->own_bytes();
 }
 
 Accuracy BulletDetector::accuracy() const noexcept {

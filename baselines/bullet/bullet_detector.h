@@ -7,9 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "baselines/hidden.h"
-#include "baselines/reach.h"
-#include "core/detector.h"
+#include "baselines/rival.h"
 
 namespace touchmark::baselines {
 
@@ -30,16 +28,9 @@ class BulletDetector {
     Asking query = Asking::checked;
   };
 
-  class Session {
-   public:
-    Work work;  ///< triangles: those Bullet reports. It does not tell how many boxes it looks at.
-
-   private:
-    friend class BulletDetector;
-    struct State;
-    void forget() noexcept;
-    Hidden<State> state_;
-  };
+  struct State;
+  /// work.triangles: those Bullet reports. It does not tell how many boxes it looks at.
+  using Session = StatefulSession<State>;
 
   static Precision precision() noexcept;
 
@@ -61,7 +52,7 @@ class BulletDetector {
   struct Model;
   struct Queries;
   explicit BulletDetector(Hidden<Model> model) noexcept : model_(std::move(model)) {}
-  Session::State& state(Session& session) const;
+  State& state(Session& session) const;
 
   Hidden<Model> model_;
 };

@@ -34,16 +34,10 @@ class Visitor final : public btDbvt::ICollide {
 
 }  // namespace
 
-struct BulletScene::Session::State {
+struct BulletScene::State {
   PosedShapes<BulletDetector>::Session shapes;
   btNodeStack stack;
-  std::uint32_t last = std::numeric_limits<std::uint32_t>::max();  ///< the body of the last contact
 };
-
-BulletScene::Session::State& BulletScene::Session::state() {
-  if (!state_) state_ = make_hidden<State>();
-  return *state_;
-}
 
 struct BulletScene::World {
   World(const PosedScene& scene, const BulletDetector::Options& chosen)
@@ -91,11 +85,11 @@ std::optional<BodyContact> BulletScene::nearest_body(const Probe& probe, double 
   const World& world = *world_;
   if (out_of_reach(world.bounds, probe.center, reach) || !answerable(probe.center, reach))
     return std::nullopt;
-  Session::State& state = session.state();
+  State& state = session.ready();
   std::optional<BodyContact> best;
-  if (world.checked && state.last < world.bodies.size())
-    world.bodies.consider(state.last, probe, reach, state.shapes, best);
-  const std::optional<std::uint32_t> asked = best ? std::optional(state.last) : std::nullopt;
+  if (world.checked && session.last < world.bodies.size())
+    world.bodies.consider(session.last, probe, reach, state.shapes, best);
+  const std::optional<std::uint32_t> asked = best ? std::optional(session.last) : std::nullopt;
   const auto ask = [&](double within) {
     const Vec3 pad = Vec3::Constant(within);
     world.near({probe.center - pad, probe.center + pad}, state.stack, [&](std::uint32_t body) {
@@ -109,7 +103,7 @@ std::optional<BodyContact> BulletScene::nearest_body(const Probe& probe, double 
   } else {
     nearest_by_growing(world.bounds, probe.center, finite, ask);
   }
-  state.last = best ? best->body.index : std::numeric_limits<std::uint32_t>::max();
+  session.last = best ? best->body.index : no_triangle;
   session.work += std::exchange(state.shapes.work, {});
   return best;
 }
@@ -118,7 +112,7 @@ std::optional<BodyImpact> BulletScene::first_hit_body(const Sweep& sweep, Sessio
   const World& world = *world_;
   if (out_of_reach(world.bounds, sweep) || !answerable(sweep.from, sweep.radius) || !answerable(sweep.to, 0))
     return std::nullopt;
-  Session::State& state = session.state();
+  State& state = session.ready();
   const Vec3 pad = Vec3::Constant(finite_reach(world.bounds, sweep.from, sweep.radius));
   std::optional<BodyImpact> first;
   world.near({sweep.from.cwiseMin(sweep.to) - pad, sweep.from.cwiseMax(sweep.to) + pad}, state.stack,

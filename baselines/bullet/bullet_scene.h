@@ -7,23 +7,16 @@
 #include <optional>
 
 #include "baselines/bullet/bullet_detector.h"
-#include "baselines/hidden.h"
 #include "baselines/posed.h"
+#include "baselines/rival.h"
 
 namespace touchmark::baselines {
 
 class BulletScene {
  public:
-  class Session {
-   public:
-    Work work;
-
-   private:
-    friend class BulletScene;
-    struct State;
-    State& state();
-    Hidden<State> state_;
-  };
+  struct State;
+  /// `last` is the body of the last contact.
+  using Session = StatefulSession<State>;
 
   /// Throws what BulletDetector::build throws.
   BulletScene(const PosedScene& scene, const BulletDetector::Options& options);

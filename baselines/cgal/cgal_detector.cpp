@@ -19,11 +19,10 @@
 namespace touchmark::baselines {
 
 /// What the kernels have in common.
-struct CgalDetector::Model {
-  Model(const TriangleMesh& mesh, const Options& chosen)
-      : ids(mesh.triangle_ids()), bounds(mesh.bounds()), options(chosen) {}
-  Model(const Model&) = delete;
-  Model& operator=(const Model&) = delete;
+struct CgalDetector::Model : RivalModel<CgalDetector::Options> {
+  Model(const TriangleMesh& mesh, const Options& chosen) : RivalModel(mesh, chosen) {
+    ids = mesh.triangle_ids();
+  }
   virtual ~Model() = default;
 
   /// The closest point of the mesh, when it is within reach.
@@ -35,16 +34,11 @@ struct CgalDetector::Model {
     std::uint32_t triangle;  ///< the mesh's id
   };
   /// `reach` is finite, `last` the place of a triangle to start from.
-  virtual std::optional<Found> nearest(const Vec3& center, double reach,
-                                       const std::optional<std::uint32_t>& last) const = 0;
+  virtual std::optional<Found> nearest(const Vec3& center, double reach, std::uint32_t last) const = 0;
   /// Asks the triangle at `last` first, and leaves there where the one is kept that is touched.
-  virtual bool touches(const Probe& probe, std::optional<std::uint32_t>& last) const = 0;
+  virtual bool touches(const Probe& probe, std::uint32_t& last) const = 0;
   virtual Vec3 face_normal(std::uint32_t index) const = 0;
   virtual std::size_t tree_bytes() const = 0;
-
-  TriangleIds ids;
-  Aabb bounds;
-  Options options;
 };
 
 namespace {
@@ -54,8 +48,7 @@ using Model = CgalDetector::Model;
 /// A point just beyond the reach. CGAL finds the closest of the mesh and the start, so it finds this one when
 /// nothing is within reach, and never looks farther.
 Vec3 beyond(const Aabb& bounds, const Vec3& center, double reach) {
-  const double largest = std::max(
-      {center.cwiseAbs().maxCoeff(), bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff()});
+  const double largest = std::max(center.cwiseAbs().maxCoeff(), largest_coordinate(bounds));
   // More than the roundings of the coordinates, of a closest point among them, and of squared distances.
   constexpr double roundings = 32 * std::numeric_limits<double>::epsilon();
   return center + Vec3(reach + roundings * (reach + largest), 0, 0);
@@ -80,8 +73,7 @@ class TreeModel final : public Model {
     }
   }
 
-  std::optional<Found> nearest(const Vec3& at, double reach,
-                               const std::optional<std::uint32_t>& last) const override {
+  std::optional<Found> nearest(const Vec3& at, double reach, std::uint32_t last) const override {
     const Point center = into(at);
     const auto [point, triangle] = closest(center, at, reach, last);
     if (triangle == triangles_.end()) return std::nullopt;
@@ -93,14 +85,13 @@ class TreeModel final : public Model {
     return within ? std::optional(found) : std::nullopt;
   }
 
-  bool touches(const Probe& probe, std::optional<std::uint32_t>& last) const override {
+  bool touches(const Probe& probe, std::uint32_t& last) const override {
     const Point center = into(probe.center);
     const FT squared = FT(probe.radius) * FT(probe.radius);
-    if (last && *last < triangles_.size() && CGAL::squared_distance(center, triangles_[*last]) <= squared)
-      return true;
+    if (last < triangles_.size() && CGAL::squared_distance(center, triangles_[last]) <= squared) return true;
     BallTouch touch{squared, {center, squared}};
     tree_.traversal(center, touch);
-    last = touch.found ? std::optional(index_of(*touch.found)) : std::nullopt;
+    last = touch.found ? index_of(*touch.found) : no_triangle;
     return touch.found.has_value();
   }
 
@@ -162,14 +153,13 @@ class TreeModel final : public Model {
   }
 
   /// The closest of the mesh, or the end and some point when it is beyond the reach.
-  Closest closest(const Point& center, const Vec3& at, double reach,
-                  const std::optional<std::uint32_t>& last) const {
+  Closest closest(const Point& center, const Vec3& at, double reach, std::uint32_t last) const {
     using Hint = CgalDetector::Hint;
     std::optional<Closest> start;
-    if (last && *last < triangles_.size() && options.hint != Hint::none) {
-      const Triangle& triangle = triangles_[*last];
+    if (last < triangles_.size() && options.hint != Hint::none) {
+      const Triangle& triangle = triangles_[last];
       start.emplace(Kernel().construct_projected_point_3_object()(triangle, center),
-                    triangles_.begin() + static_cast<std::ptrdiff_t>(*last));
+                    triangles_.begin() + static_cast<std::ptrdiff_t>(last));
     }
     if (options.hint == Hint::bounded) {
       const Point limit = into(beyond(bounds, at, reach));
@@ -217,16 +207,10 @@ CgalDetector CgalDetector::build(const TriangleMesh& mesh, const Options& option
 
 std::optional<Contact> CgalDetector::nearest(const Probe& probe, double reach,
                                              Session& session) const noexcept {
-  const Vec3& center = probe.center;
-  const bool checked = model_->options.query == Asking::checked;
-  if (checked && out_of_reach(model_->bounds, center, reach)) {
-    session.last.reset();
-    return std::nullopt;
-  }
-  if (!answerable(center, reach)) return std::nullopt;
-  const double finite = finite_reach(model_->bounds, center, reach);
-  const std::optional<Model::Found> found = model_->nearest(center, finite, session.last);
-  if (!found && checked) session.last.reset();
+  const std::optional<double> finite = model_->reach_to_ask(probe.center, reach, session.last);
+  if (!finite || std::isnan(reach)) return std::nullopt;
+  const std::optional<Model::Found> found = model_->nearest(probe.center, *finite, session.last);
+  if (!found && model_->checked()) session.last = no_triangle;
   if (!found) return std::nullopt;
   session.last = found->index;
   const double length = found->away.norm();
@@ -235,15 +219,10 @@ std::optional<Contact> CgalDetector::nearest(const Probe& probe, double reach,
 }
 
 bool CgalDetector::touches(const Probe& probe, Session& session) const noexcept {
-  const bool checked = model_->options.query == Asking::checked;
-  if (checked && out_of_reach(model_->bounds, probe.center, probe.radius)) {
-    session.last.reset();
-    return false;
-  }
-  if (!answerable(probe.center, probe.radius)) return false;
-  const Probe asked{probe.center, finite_reach(model_->bounds, probe.center, probe.radius)};
-  std::optional<std::uint32_t> alone;
-  return model_->touches(asked, checked ? session.last : alone);
+  const std::optional<double> radius = model_->reach_to_ask(probe.center, probe.radius, session.last);
+  std::uint32_t none = no_triangle;
+  return radius && !std::isnan(probe.radius) &&
+         model_->touches({probe.center, *radius}, model_->checked() ? session.last : none);
 }
 
 std::size_t CgalDetector::bytes() const noexcept { return model_->tree_bytes() + model_->ids.bytes(); }

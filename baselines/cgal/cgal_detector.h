@@ -3,13 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <utility>
 
-#include "baselines/hidden.h"
-#include "baselines/reach.h"
-#include "core/detector.h"
+#include "baselines/rival.h"
 
 namespace touchmark::baselines {
 
@@ -27,12 +24,8 @@ class CgalDetector {
     Hint hint = Hint::bounded;
     Asking query = Asking::checked;
   };
-  /// CGAL tells no work.
-  struct Session {
-    Work work;
-    /// The triangle that is kept. checked: that of the last contact; plain: the last that was nearest.
-    std::optional<std::uint32_t> last;
-  };
+  /// CGAL tells no work. `last` is a place in its tree.
+  using Session = RivalSession;
 
   /// Throws MeshError where CGAL has nothing to work with: with epeck any triangle of no area, with the
   /// others (which leave those out) nothing but such triangles.

@@ -25,24 +25,16 @@
 
 namespace touchmark::baselines {
 
-struct EmbreeDetector::Model {
+struct EmbreeDetector::Model : RivalModel<EmbreeDetector::Options> {
   Model(const TriangleMesh& mesh, const Options& chosen)
-      : options(chosen),
-        connectivity(mesh),
-        ids(mesh.triangle_ids()),
-        bounds(mesh.bounds()),
-        frame(bounds),
-        size(mesh.size()) {
+      : RivalModel(mesh, chosen), connectivity(mesh), frame(bounds), size(mesh.size()) {
+    ids = mesh.triangle_ids();
     if (options.geometry != Geometry::triangle) triangles = prepare(mesh);
   }
-  Model(const Model&) = delete;
-  Model& operator=(const Model&) = delete;
   ~Model() {
     if (scene != nullptr) rtcReleaseScene(scene);
     if (device != nullptr) rtcReleaseDevice(device);
   }
-
-  bool checked() const noexcept { return options.query == Asking::checked; }
 
   /// Embree's own copy; of triangle geometry only.
   std::array<Eigen::Vector3f, 3> corners(std::uint32_t index) const noexcept {
@@ -53,11 +45,7 @@ struct EmbreeDetector::Model {
     return {at(corner[0]), at(corner[1]), at(corner[2])};
   }
 
-  Options options;
   Connectivity connectivity;
-  std::vector<PreparedTriangle> triangles;  ///< not with Geometry::triangle
-  TriangleIds ids;
-  Aabb bounds;
   EmbreeFrame frame;
   std::size_t size;
   float* vertices = nullptr;  ///< Embree's
@@ -287,8 +275,7 @@ EmbreeDetector EmbreeDetector::build(const TriangleMesh& mesh, const Options& op
 void EmbreeDetector::update(const TriangleMesh& mesh) {
   Model& model = *model_;
   model.connectivity.expect(mesh);
-  for (PreparedTriangle& triangle : model.triangles)
-    if (has_moved(triangle, mesh)) triangle = prepare(mesh, triangle.index);
+  model.follow(mesh);
   model.bounds = mesh.bounds();
   model.frame = EmbreeFrame(model.bounds);
   RTCGeometry geometry = rtcGetGeometry(model.scene, 0);
@@ -305,33 +292,24 @@ std::optional<Contact> EmbreeDetector::nearest(const Probe& probe, double reach,
                                                Session& session) const noexcept {
   const Model& model = *model_;
   const Vec3& center = probe.center;
-  if (model.checked() && out_of_reach(model.bounds, center, reach)) {
-    session.last = no_triangle;
-    return std::nullopt;
-  }
-  if (!answerable(center, reach)) return std::nullopt;
-  const double finite = finite_reach(model.bounds, center, reach);
+  const std::optional<double> finite = model.reach_to_ask(center, reach, session.last);
+  if (!finite || std::isnan(reach)) return std::nullopt;
   return model.options.geometry == Geometry::triangle
-             ? EmbreeCallbacks::nearest_within<EmbreeCallbacks::Single>(model, center, finite, session)
-             : EmbreeCallbacks::nearest_within<EmbreeCallbacks::Exact>(model, center, finite, session);
+             ? EmbreeCallbacks::nearest_within<EmbreeCallbacks::Single>(model, center, *finite, session)
+             : EmbreeCallbacks::nearest_within<EmbreeCallbacks::Exact>(model, center, *finite, session);
 }
 
 bool EmbreeDetector::touches(const Probe& probe, Session& session) const noexcept {
   const Model& model = *model_;
-  if (model.checked() && out_of_reach(model.bounds, probe.center, probe.radius)) {
-    session.last = no_triangle;
-    return false;
-  }
-  if (!answerable(probe.center, probe.radius)) return false;
-  const double finite = finite_reach(model.bounds, probe.center, probe.radius);
+  const std::optional<double> finite = model.reach_to_ask(probe.center, probe.radius, session.last);
+  if (!finite || std::isnan(probe.radius)) return false;
   return model.options.geometry == Geometry::triangle
-             ? EmbreeCallbacks::touches<EmbreeCallbacks::Single>(model, probe, finite, session)
-             : EmbreeCallbacks::touches<EmbreeCallbacks::Exact>(model, probe, finite, session);
+             ? EmbreeCallbacks::touches<EmbreeCallbacks::Single>(model, probe, *finite, session)
+             : EmbreeCallbacks::touches<EmbreeCallbacks::Exact>(model, probe, *finite, session);
 }
 
 std::size_t EmbreeDetector::bytes() const noexcept {
-  return static_cast<std::size_t>(model_->taken) + model_->triangles.capacity() * sizeof(PreparedTriangle) +
-         model_->ids.bytes();
+  return static_cast<std::size_t>(model_->taken) + model_->own_bytes();
 }
 
 Accuracy EmbreeDetector::accuracy() const noexcept {

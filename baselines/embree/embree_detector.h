@@ -6,9 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "baselines/hidden.h"
-#include "baselines/reach.h"
-#include "core/detector.h"
+#include "baselines/rival.h"
 
 namespace touchmark::baselines {
 
@@ -27,10 +25,8 @@ class EmbreeDetector {
     bool warm = true;  ///< `nearest` starts from the distance of the session's last triangle
     Asking query = Asking::checked;
   };
-  struct Session {
-    Work work;                         ///< triangles: callbacks. Embree tells no boxes.
-    std::uint32_t last = no_triangle;  ///< checked: of the last contact; plain: the last that was nearest
-  };
+  /// work.triangles: callbacks. Embree tells no boxes.
+  using Session = RivalSession;
 
   /// Throws MeshError when Embree has no memory for the mesh or cannot be started.
   static EmbreeDetector build(const TriangleMesh& mesh, const Options& options);

@@ -201,37 +201,24 @@ double fitting_slack(double largest_coordinate, const Vec3& center) {
 
 }  // namespace
 
-struct FclDetector::Session::State {
+struct FclDetector::State {
   fcl::CollisionResultd contacts;
   Solver solver;
-  std::uint32_t last = no_triangle;  ///< checked: of the last contact; plain: the last that was nearest
 };
 
-void FclDetector::Session::forget() noexcept {
-  if (state_) state_->last = no_triangle;
-}
-FclDetector::Session::State& FclDetector::Session::state() {
-  if (!state_) state_ = make_hidden<State>();
-  return *state_;
-}
-
-struct FclDetector::Model {
-  Options options;
+struct FclDetector::Model : RivalModel<FclDetector::Options> {
   Connectivity connectivity;
-  Aabb bounds;
   double largest_coordinate = 0;
-  TriangleIds ids;
-  std::vector<PreparedTriangle> triangles;  ///< narrow exact only
 
-  Model(const TriangleMesh& mesh, const Options& chosen)
-      : options(chosen), connectivity(mesh), ids(mesh.triangle_ids()) {
+  Model(const TriangleMesh& mesh, const Options& chosen) : RivalModel(mesh, chosen), connectivity(mesh) {
+    ids = mesh.triangle_ids();
     set_bounds(mesh);
     if (options.narrow == Narrow::exact) triangles = prepare(mesh);
   }
   virtual ~Model() = default;
   void set_bounds(const TriangleMesh& mesh) {
     bounds = mesh.bounds();
-    largest_coordinate = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).maxCoeff();
+    largest_coordinate = baselines::largest_coordinate(bounds);
   }
   virtual void replace_vertices(const TriangleMesh& mesh) = 0;
   virtual bool touches(const Probe& probe, Session& session) const = 0;
@@ -284,33 +271,31 @@ struct FclDetector::ModelOf : FclDetector::Model {
   }
 
   bool touches(const Probe& probe, Session& session) const override {
-    Session::State& state = session.state();
-    if (touches_last(probe, state)) {
+    if (touches_last(probe, session)) {
       ++session.work.triangles;
       return true;
     }
-    state.last = no_triangle;
+    session.last = no_triangle;
     if (options.narrow == Narrow::exact) {
       const Candidate best = collided(probe, Gather::Stop::at_first_touch, session);
       const bool touching = std::sqrt(best.squared_distance) <= probe.radius;
-      if (touching) state.last = best.index;
+      if (touching) session.last = best.index;
       return touching;
     }
     const Sphere ball(probe.radius);
     fcl::CollisionRequestd request(1, false);
     if (collide(ball, probe.center, request, session) == 0) return false;
-    state.last = static_cast<std::uint32_t>(state.contacts.getContact(0).b1);
+    session.last = static_cast<std::uint32_t>(session.state->contacts.getContact(0).b1);
     return true;
   }
 
   /// By the narrow phase that the traversal has at its leaves.
-  bool touches_last(const Probe& probe, const Session::State& state) const {
-    if (options.query == Asking::plain || state.last >= static_cast<std::uint32_t>(hierarchy.num_tris))
-      return false;
+  bool touches_last(const Probe& probe, Session& session) const {
+    if (!checked() || session.last >= static_cast<std::uint32_t>(hierarchy.num_tris)) return false;
     if (options.narrow == Narrow::exact)
-      return std::sqrt(squared_distance(triangles[state.last], probe.center)) <= probe.radius;
-    const fcl::Triangle& corner = hierarchy.tri_indices[state.last];
-    return state.solver.shapeTriangleIntersect(
+      return std::sqrt(squared_distance(triangles[session.last], probe.center)) <= probe.radius;
+    const fcl::Triangle& corner = hierarchy.tri_indices[session.last];
+    return session.ready().solver.shapeTriangleIntersect(
         Sphere(probe.radius), at(probe.center), hierarchy.vertices[corner[0]], hierarchy.vertices[corner[1]],
         hierarchy.vertices[corner[2]], fcl::Transform3d::Identity(), nullptr, nullptr, nullptr);
   }
@@ -330,7 +315,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
   /// FCL's own collision, with the public function or by the same traversal without its dispatcher.
   std::size_t collide(const Sphere& ball, const Vec3& center, const fcl::CollisionRequestd& request,
                       Session& session) const {
-    Session::State& state = session.state();
+    State& state = session.ready();
     state.contacts.clear();
     if (options.method == Method::collide) {
       fcl::collide(&hierarchy, fcl::Transform3d::Identity(), &ball, at(center), request, state.contacts);
@@ -350,7 +335,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
     const Sphere ball(reach);
     const fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), true);
     const std::size_t found = collide(ball, center, request, session);
-    const fcl::CollisionResultd& contacts = session.state().contacts;
+    const fcl::CollisionResultd& contacts = session.ready().contacts;
     const auto key = [](const fcl::Contactd& contact) {
       return std::pair(contact.penetration_depth, contact.b1);  // the depth comes negative
     };
@@ -359,7 +344,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
       const fcl::Contactd& contact = contacts.getContact(i);
       if (!deepest || key(contact) < key(*deepest)) deepest = &contact;
     }
-    session.state().last = deepest ? static_cast<std::uint32_t>(deepest->b1) : no_triangle;
+    session.last = deepest ? static_cast<std::uint32_t>(deepest->b1) : no_triangle;
     if (!deepest) return std::nullopt;
     const double distance = std::max(0.0, reach + deepest->penetration_depth);
     return contact_at(deepest->pos, deepest->normal, distance, static_cast<std::size_t>(deepest->b1));
@@ -367,13 +352,12 @@ struct FclDetector::ModelOf : FclDetector::Model {
 
   /// The ball need not hold more than the last triangle's distance.
   std::optional<Contact> exact_deepest(const Vec3& center, double reach, Session& session) const {
-    Session::State& state = session.state();
     double within = reach;
-    if (options.query == Asking::checked && state.last < triangles.size())
-      within = std::min(reach, std::sqrt(squared_distance(triangles[state.last], center)));
+    if (checked() && session.last < triangles.size())
+      within = std::min(reach, std::sqrt(squared_distance(triangles[session.last], center)));
     const Candidate best = collided({center, within}, Gather::Stop::never, session);
     const std::optional<Contact> contact = exact_contact(best, center, within);
-    state.last = contact ? best.index : no_triangle;
+    session.last = contact ? best.index : no_triangle;
     return contact;
   }
 
@@ -395,10 +379,9 @@ struct FclDetector::ModelOf : FclDetector::Model {
     Traversal<Bounds>::set_ball(node.model2_bv, center, 0);
     // Only what is nearer than the bound counts for FCL; contact here is closed. The last triangle's distance
     // bounds the search with more room than FCL's roundings take: which triangle FCL finds does not change.
-    Session::State& state = session.state();
     double bound = reach;
-    if (options.query == Asking::checked && state.last < static_cast<std::uint32_t>(hierarchy.num_tris)) {
-      bound = std::min(bound, node.measured(static_cast<int>(state.last)).distance +
+    if (checked() && session.last < static_cast<std::uint32_t>(hierarchy.num_tris)) {
+      bound = std::min(bound, node.measured(static_cast<int>(session.last)).distance +
                                   fitting_slack(largest_coordinate, center));
     }
     fcl::DistanceResultd result(std::nextafter(bound, std::numeric_limits<double>::infinity()));
@@ -406,7 +389,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
     nodes::distance(&node, nullptr, 2);
     count(node, session);
     const bool found = result.b1 != fcl::DistanceResultd::NONE;
-    state.last = found ? static_cast<std::uint32_t>(result.b1) : no_triangle;
+    session.last = found ? static_cast<std::uint32_t>(result.b1) : no_triangle;
     if (!found) return std::nullopt;
     const Vec3 offset = center - result.nearest_points[0];
     const double length = offset.norm();
@@ -416,18 +399,17 @@ struct FclDetector::ModelOf : FclDetector::Model {
   }
 
   std::optional<Contact> exact_nearest(const Vec3& center, double reach, Session& session) const {
-    Session::State& state = session.state();
-    const bool always = options.query == Asking::plain;
+    const bool always = !checked();
     ExactNearest<Distance> node(triangles, center, reach, fitting_slack(largest_coordinate, center),
-                                always && state.last >= triangles.size() ? 0 : state.last);
+                                always && session.last >= triangles.size() ? 0 : session.last);
     const Sphere point(0);
     set_up(node, point, center, session);
     Traversal<Bounds>::set_ball(node.model2_bv, center, 0);
     nodes::distance(&node, nullptr, 2);
     count(node, session);
     const std::optional<Contact> contact = exact_contact(node.best(), center, reach);
-    if (contact || always) state.last = node.best().index;
-    if (!contact && !always) state.last = no_triangle;
+    if (contact || always) session.last = node.best().index;
+    if (!contact && !always) session.last = no_triangle;
     return contact;
   }
 
@@ -448,7 +430,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
     node.tf1 = fcl::Transform3d::Identity();
     node.model2 = &ball;
     node.tf2 = at(center);
-    node.nsolver = &session.state().solver;
+    node.nsolver = &session.ready().solver;
     node.vertices = hierarchy.vertices;
     node.tri_indices = hierarchy.tri_indices;
     node.enable_statistics = true;
@@ -471,11 +453,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
 };
 
 FclDetector FclDetector::build(const TriangleMesh& mesh, const Options& options) {
-  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
-  if (mesh.size() > most || mesh.vertices().size() > most) {
-    throw MeshError("FCL counts in int: " + std::to_string(std::max(mesh.size(), mesh.vertices().size())) +
-                    " triangles or vertices are more than " + std::to_string(most));
-  }
+  require_int_counts("FCL", mesh);
   if (options.method == Method::collide && options.narrow == Narrow::exact)
     throw std::invalid_argument("fcl: narrow=exact needs method=traverse or method=distance");
   switch (options.bv) {
@@ -496,20 +474,15 @@ FclDetector FclDetector::build(const TriangleMesh& mesh, const Options& options)
 void FclDetector::update(const TriangleMesh& mesh) {
   model_->connectivity.expect(mesh);
   model_->set_bounds(mesh);
-  for (PreparedTriangle& triangle : model_->triangles)
-    if (has_moved(triangle, mesh)) triangle = prepare(mesh, triangle.index);
+  model_->follow(mesh);
   model_->replace_vertices(mesh);
 }
 
 bool FclDetector::touches(const Probe& probe, Session& session) const noexcept {
-  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, probe.center, probe.radius)) {
-    session.forget();
-    return false;
-  }
-  const double radius = finite_reach(model_->bounds, probe.center, probe.radius);
-  if (!answerable(probe.center, radius)) return false;
+  const std::optional<double> radius = model_->reach_to_ask(probe.center, probe.radius, session.last);
+  if (!radius) return false;
   try {
-    return model_->touches({probe.center, radius}, session);
+    return model_->touches({probe.center, *radius}, session);
   } catch (...) {  // out of memory or FCL's own: it has found no contact
     return false;
   }
@@ -517,23 +490,16 @@ bool FclDetector::touches(const Probe& probe, Session& session) const noexcept {
 
 std::optional<Contact> FclDetector::nearest(const Probe& probe, double reach,
                                             Session& session) const noexcept {
-  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, probe.center, reach)) {
-    session.forget();
-    return std::nullopt;
-  }
-  const double finite = finite_reach(model_->bounds, probe.center, reach);
-  if (!answerable(probe.center, finite)) return std::nullopt;
+  const std::optional<double> finite = model_->reach_to_ask(probe.center, reach, session.last);
+  if (!finite) return std::nullopt;
   try {
-    return model_->nearest(probe.center, finite, session);
+    return model_->nearest(probe.center, *finite, session);
   } catch (...) {
     return std::nullopt;
   }
 }
 
-std::size_t FclDetector::bytes() const noexcept {
-  return model_->hierarchy_bytes() + model_->ids.bytes() +
-         model_->triangles.capacity() * sizeof(PreparedTriangle);
-}
+std::size_t FclDetector::bytes() const noexcept { return model_->hierarchy_bytes() + model_->own_bytes(); }
 
 Accuracy FclDetector::accuracy() const noexcept {
   // A box of doubles is its triangles' own minima and maxima, so only there nothing can get lost.

@@ -6,9 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "baselines/hidden.h"
-#include "baselines/reach.h"
-#include "core/detector.h"
+#include "baselines/rival.h"
 
 namespace touchmark::baselines {
 
@@ -32,17 +30,9 @@ class FclDetector {
     Asking query = Asking::checked;
   };
 
-  class Session {
-   public:
-    Work work;  ///< boxes: FCL's volumes. Method collide tells neither; its triangles are the contacts found.
-
-   private:
-    friend class FclDetector;
-    struct State;
-    State& state();
-    void forget() noexcept;
-    Hidden<State> state_;
-  };
+  struct State;
+  /// work.boxes: FCL's volumes. Method collide tells neither; its triangles are the contacts found.
+  using Session = StatefulSession<State>;
 
   /// Throws std::invalid_argument for a combination that FCL cannot do, MeshError for more than 2^31 - 1
   /// triangles or vertices.

@@ -112,10 +112,9 @@ class Pair {
 
 }  // namespace
 
-struct LibccdDetector::Model {
+struct LibccdDetector::Model : RivalModel<LibccdDetector::Options> {
   Model(const TriangleMesh& mesh, const Options& chosen)
-      : options(chosen),
-        bounds(mesh.bounds()),
+      : RivalModel(mesh, chosen),
         surface(mesh),
         // A pair costs a hundred boxes: one triangle a leaf.
         tree(AabbTree::build(mesh, {.leaf_size = 1})) {}
@@ -199,7 +198,7 @@ struct LibccdDetector::Model {
       session.given_up += pair.gave_up();
       return touching;
     };
-    const bool first = options.query == Asking::checked && session.last < surface.size();
+    const bool first = checked() && session.last < surface.size();
     if (first && meets(relative(session.last, center))) return true;
     session.last = no_triangle;
     Work tree_work;
@@ -212,8 +211,6 @@ struct LibccdDetector::Model {
     return session.last != no_triangle;
   }
 
-  Options options;
-  Aabb bounds;
   TriangleMesh surface;
   AabbTree tree;
 };
@@ -228,23 +225,15 @@ LibccdDetector LibccdDetector::build(const TriangleMesh& mesh, const Options& op
 }
 
 bool LibccdDetector::touches(const Probe& probe, Session& session) const noexcept {
-  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, probe.center, probe.radius)) {
-    session.last = no_triangle;
-    return false;
-  }
-  const double radius = finite_reach(model_->bounds, probe.center, probe.radius);
-  return answerable(probe.center, radius) && model_->touches(probe.center, radius, session);
+  const std::optional<double> radius = model_->reach_to_ask(probe.center, probe.radius, session.last);
+  return radius && model_->touches(probe.center, *radius, session);
 }
 
 std::optional<Contact> LibccdDetector::nearest(const Probe& probe, double reach,
                                                Session& session) const noexcept {
-  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, probe.center, reach)) {
-    session.last = no_triangle;
-    return std::nullopt;
-  }
-  const double finite = finite_reach(model_->bounds, probe.center, reach);
-  if (!answerable(probe.center, finite)) return std::nullopt;
-  return nearest_by_growing(model_->bounds, probe.center, finite, [&](double within) {
+  const std::optional<double> finite = model_->reach_to_ask(probe.center, reach, session.last);
+  if (!finite) return std::nullopt;
+  return nearest_by_growing(model_->bounds, probe.center, *finite, [&](double within) {
     return model_->nearest_within(probe.center, within, session);
   });
 }

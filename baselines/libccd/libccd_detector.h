@@ -7,9 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "baselines/hidden.h"
-#include "baselines/reach.h"
-#include "core/detector.h"
+#include "baselines/rival.h"
 
 namespace touchmark::baselines {
 
@@ -27,10 +25,9 @@ class LibccdDetector {
     std::size_t iterations = 500;  ///< at most, in GJK; libccd's own default is ULONG_MAX
     Asking query = Asking::checked;
   };
-  struct Session {
-    Work work;                         ///< boxes: our tree's; triangles: those libccd is asked about
-    std::size_t given_up = 0;          ///< pairs that were stopped for taking too long
-    std::uint32_t last = no_triangle;  ///< the last contact's
+  /// work.boxes: our tree's; work.triangles: those libccd is asked about. `last` is the last contact's.
+  struct Session : RivalSession {
+    std::size_t given_up = 0;  ///< pairs that were stopped for taking too long
   };
 
   /// Throws std::invalid_argument for a tolerance that is not positive, or no iterations.

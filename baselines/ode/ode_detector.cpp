@@ -28,13 +28,11 @@ Vec3 vec3(const dVector3& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-struct OdeDetector::Model {
+struct OdeDetector::Model : RivalModel<OdeDetector::Options> {
   Model(const TriangleMesh& mesh, const Options& chosen)
-      : options(chosen),
-        bounds(mesh.bounds()),
-        triangles(prepare(mesh)),
-        ids(mesh.triangle_ids()),
-        vertices(mesh.vertices().begin(), mesh.vertices().end()) {
+      : RivalModel(mesh, chosen), vertices(mesh.vertices().begin(), mesh.vertices().end()) {
+    triangles = prepare(mesh);
+    ids = mesh.triangle_ids();
     for (const TriangleMesh::Corners& c : mesh.triangles()) corners.push_back({c[0], c[1], c[2]});
     if (options.sides == Sides::both)
       for (const TriangleMesh::Corners& c : mesh.triangles()) corners.push_back({c[0], c[2], c[1]});
@@ -43,24 +41,18 @@ struct OdeDetector::Model {
                                 corners.data(), static_cast<int>(3 * corners.size()), sizeof(corners[0]));
     geometry = dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr);
   }
-  Model(const Model&) = delete;
-  Model& operator=(const Model&) = delete;
   ~Model() {
     dGeomDestroy(geometry);
     dGeomTriMeshDataDestroy(data);
   }
 
-  Options options;
-  Aabb bounds;
-  std::vector<PreparedTriangle> triangles;
-  TriangleIds ids;
   std::vector<Vec3> vertices;
   std::vector<std::array<dTriIndex, 3>> corners;
   dTriMeshDataID data;
   dGeomID geometry;
 };
 
-struct OdeDetector::Session::State {
+struct OdeDetector::State {
   State() {
     start_ode();
     ball = dCreateSphere(nullptr, 1);
@@ -80,7 +72,6 @@ struct OdeDetector::Session::State {
 
   dGeomID ball;
   std::vector<dContactGeom> contacts{max_contacts};
-  std::uint32_t last = no_triangle;  ///< The triangle of the last contact.
 };
 
 OdeDetector OdeDetector::build(const TriangleMesh& mesh, const Options& options) {
@@ -91,18 +82,12 @@ OdeDetector OdeDetector::build(const TriangleMesh& mesh, const Options& options)
   return OdeDetector(make_hidden<Model>(mesh, options));
 }
 
-OdeDetector::Session::State& OdeDetector::state(Session& session) {
-  if (!session.state_) session.state_ = make_hidden<Session::State>();
-  return *session.state_;
-}
-
 bool OdeDetector::touches(const Probe& probe, Session& session) const noexcept {
   const Model& model = *model_;
-  if (model.options.query == Asking::checked && out_of_reach(model.bounds, probe.center, probe.radius))
-    return false;
-  const double radius = finite_reach(model.bounds, probe.center, probe.radius);
-  if (!answerable(probe.center, radius)) return false;
-  const auto found = state(session).collide(model.geometry, probe.center, radius, 1 | CONTACTS_UNIMPORTANT);
+  std::uint32_t last = session.last;  // stays as it is
+  const std::optional<double> radius = model.reach_to_ask(probe.center, probe.radius, last);
+  if (!radius) return false;
+  const auto found = session.ready().collide(model.geometry, probe.center, *radius, 1 | CONTACTS_UNIMPORTANT);
   session.work.triangles += found.size();
   return !found.empty();
 }
@@ -111,7 +96,7 @@ bool OdeDetector::touches(const Probe& probe, Session& session) const noexcept {
 std::optional<Contact> OdeDetector::nearest_in_ball(const Vec3& center, double radius,
                                                     Session& session) const noexcept {
   const Model& model = *model_;
-  Session::State& state = *session.state_;
+  State& state = session.ready();
   for (;;) {
     const auto found = state.collide(model.geometry, center, radius, max_contacts);
     session.work.triangles += found.size();
@@ -123,7 +108,7 @@ std::optional<Contact> OdeDetector::nearest_in_ball(const Vec3& center, double r
       const TriangleId id = model.ids[triangle];
       if (!(distance <= radius)) continue;
       if (best && !(std::pair(distance, id) < std::pair(best->distance, best->triangle))) continue;
-      state.last = static_cast<std::uint32_t>(triangle);
+      session.last = static_cast<std::uint32_t>(triangle);
       best = {point, distance > 0 ? Vec3((center - point) / distance) : vec3(contact.normal), distance, id};
     }
     if (found.size() < max_contacts || !best || !(best->distance < radius)) return best;
@@ -135,41 +120,34 @@ std::optional<Contact> OdeDetector::nearest(const Probe& probe, double reach,
                                             Session& session) const noexcept {
   const Model& model = *model_;
   const Vec3& center = probe.center;
-  Session::State& state = OdeDetector::state(session);
-  const bool checked = model.options.query == Asking::checked;
-  if (checked && out_of_reach(model.bounds, center, reach)) {
-    state.last = no_triangle;
-    return std::nullopt;
-  }
-  reach = finite_reach(model.bounds, center, reach);
-  if (!answerable(center, reach)) return std::nullopt;
-  double within = reach;
-  if (checked && state.last < model.triangles.size()) {
+  const std::optional<double> finite = model.reach_to_ask(center, reach, session.last);
+  if (!finite) return std::nullopt;
+  double within = *finite;
+  if (model.checked() && session.last < model.triangles.size()) {
     constexpr double a_little_more = 1 + 1e-6;  // so that triangles as near stay within
     ++session.work.triangles;
     within =
-        std::min(reach, a_little_more * std::sqrt(squared_distance(model.triangles[state.last], center)));
+        std::min(within, a_little_more * std::sqrt(squared_distance(model.triangles[session.last], center)));
   }
   const auto ask = [&](double radius) { return nearest_in_ball(center, radius, session); };
   std::optional<Contact> contact = nearest_by_growing(model.bounds, center, within, ask);
   // From behind, ODE does not know the last triangle, and what it knows may be farther.
-  if (!contact && within < reach) contact = nearest_by_growing(model.bounds, center, reach, ask);
-  if (!contact) state.last = no_triangle;
+  if (!contact && within < *finite) contact = nearest_by_growing(model.bounds, center, *finite, ask);
+  if (!contact) session.last = no_triangle;
   return contact;
 }
 
 std::size_t OdeDetector::bytes() const noexcept {
   const Model& model = *model_;
   return model.vertices.capacity() * sizeof(Vec3) + model.corners.capacity() * sizeof(model.corners[0]) +
-         model.triangles.capacity() * sizeof(PreparedTriangle) + model.ids.bytes();
+         model.own_bytes();
 }
 
 Accuracy OdeDetector::accuracy() const noexcept {
   // Boxes are compared in single precision: a triangle at the very reach may be lost by some of its
   // roundings.
-  const double largest = model_->bounds.min.cwiseAbs().cwiseMax(model_->bounds.max.cwiseAbs()).maxCoeff();
   constexpr double roundoff = std::numeric_limits<float>::epsilon() / 2;
-  return {Guarantee::approximate, 8 * roundoff, 8 * roundoff * largest};
+  return {Guarantee::approximate, 8 * roundoff, 8 * roundoff * largest_coordinate(model_->bounds)};
 }
 
 }  // namespace touchmark::baselines

@@ -6,9 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "baselines/hidden.h"
-#include "baselines/reach.h"
-#include "core/detector.h"
+#include "baselines/rival.h"
 
 namespace touchmark::baselines {
 
@@ -23,15 +21,9 @@ class OdeDetector {
     Asking query = Asking::checked;
   };
 
-  class Session {
-   public:
-    Work work;  ///< triangles: the contacts that ODE reports. It does not tell what it looks at.
-
-   private:
-    friend class OdeDetector;
-    struct State;
-    Hidden<State> state_;
-  };
+  struct State;
+  /// work.triangles: the contacts that ODE reports. It does not tell what it looks at.
+  using Session = StatefulSession<State>;
 
   /// Throws MeshError for more than 2^30 triangles or 2^31 - 1 vertices.
   static OdeDetector build(const TriangleMesh& mesh, const Options& options);
@@ -47,7 +39,6 @@ class OdeDetector {
  private:
   struct Model;
   explicit OdeDetector(Hidden<Model> model) noexcept : model_(std::move(model)) {}
-  static Session::State& state(Session& session);
   std::optional<Contact> nearest_in_ball(const Vec3& center, double radius, Session& session) const noexcept;
 
   Hidden<Model> model_;

@@ -142,7 +142,7 @@ struct OpenVdbDetector::Model {
 };
 
 /// What one thread reads the grids by: the cell and the path to the voxel that were read last are kept.
-struct OpenVdbDetector::Session::State {
+struct OpenVdbDetector::State {
   explicit State(const Model& model) : number(model.number) {
     if (model.distances) cell.emplace(*model.distances);
     if (model.polygons) voxel.emplace(model.polygons->tree());
@@ -174,10 +174,9 @@ OpenVdbDetector OpenVdbDetector::build(const TriangleMesh& mesh, const Options& 
   return OpenVdbDetector(make_hidden<Model>(mesh, options));
 }
 
-OpenVdbDetector::Session::State& OpenVdbDetector::state(Session& session) const {
-  if (!session.state_ || session.state_->number != model_->number)
-    session.state_ = make_hidden<Session::State>(*model_);
-  return *session.state_;
+OpenVdbDetector::State& OpenVdbDetector::state(Session& session) const {
+  if (!session.state || session.state->number != model_->number) session.state = make_hidden<State>(*model_);
+  return *session.state;
 }
 
 /// Returns the place in voxels, or nothing where nothing is to be found.
@@ -238,7 +237,7 @@ std::optional<Contact> OpenVdbDetector::nearest(const Probe& probe, double reach
   if (!found) return std::nullopt;
   const double distance = std::abs(*found) * division.voxel;
   if (!(distance <= reach)) return std::nullopt;
-  const Vec3 away = session.state_->direction_at(single(*place), *found < 0);
+  const Vec3 away = session.state->direction_at(single(*place), *found < 0);
   return Contact{probe.center - distance * away, away, distance, no_triangle};
 }
 

@@ -6,10 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "baselines/hidden.h"
-#include "baselines/reach.h"
-#include "core/detector.h"
-#include "core/geometry/point_triangle.h"
+#include "baselines/rival.h"
 
 namespace touchmark::baselines {
 
@@ -29,15 +26,9 @@ class OpenVdbDetector {
     Asking query = Asking::checked;
   };
 
-  class Session {
-   public:
-    Work work;  ///< cells: the cells of the lattice that were read. triangles: the polygons measured.
-
-   private:
-    friend class OpenVdbDetector;
-    struct State;
-    Hidden<State> state_;
-  };
+  struct State;
+  /// work.cells: the cells of the lattice that were read. work.triangles: the polygons measured.
+  using Session = StatefulSession<State>;
 
   /// Throws std::invalid_argument for a voxel or a band that is not a finite number above 0, or so many
   /// voxels that they take more than 4 GiB or leave the range of the library's coordinates; MeshError for
@@ -56,7 +47,7 @@ class OpenVdbDetector {
  private:
   struct Model;
   explicit OpenVdbDetector(Hidden<Model> model) noexcept : model_(std::move(model)) {}
-  Session::State& state(Session& session) const;
+  State& state(Session& session) const;
   std::optional<Vec3> place_within(const Vec3& center, double reach) const noexcept;
   std::optional<float> distance_at(const Vec3& place, Session& session) const noexcept;
   const PreparedTriangle* polygon_at(const Vec3& place, Session& session) const noexcept;

@@ -41,14 +41,13 @@ vtkNew<vtkPolyData> poly_data(const TriangleMesh& mesh) {
 
 }  // namespace
 
-struct VtkDetector::Model {
-  Model(const TriangleMesh& mesh, const Options& chosen)
-      : options(chosen), bounds(mesh.bounds()), data(poly_data(mesh)) {
+struct VtkDetector::Model : RivalModel<VtkDetector::Options> {
+  Model(const TriangleMesh& mesh, const Options& chosen) : RivalModel(mesh, chosen), data(poly_data(mesh)) {
     if (options.locator == Locator::implicit) {
       distance->SetInput(data);
       return;
     }
-    triangles = prepare(mesh);
+    triangles = prepare(mesh);  // none of `implicit`, which names none
     ids = mesh.triangle_ids();
     if (options.cells > 0) locator->SetNumberOfCellsPerNode(static_cast<int>(options.cells));
     locator->SetDataSet(data);
@@ -60,18 +59,13 @@ struct VtkDetector::Model {
     data->BuildCells();
   }
 
-  Options options;
-  Aabb bounds;
   vtkNew<vtkPolyData> data;
   vtkNew<vtkStaticCellLocator> locator;
   vtkNew<vtkImplicitPolyDataDistance> distance;
-  std::vector<PreparedTriangle> triangles;  ///< none of `implicit`, which names none
-  TriangleIds ids;
 };
 
-struct VtkDetector::Session::State {
+struct VtkDetector::State {
   vtkNew<vtkGenericCell> cell;
-  std::uint32_t last = no_triangle;  ///< The triangle of the last contact.
 };
 
 VtkDetector VtkDetector::build(const TriangleMesh& mesh, const Options& options) {
@@ -79,39 +73,25 @@ VtkDetector VtkDetector::build(const TriangleMesh& mesh, const Options& options)
   return VtkDetector(make_hidden<Model>(mesh, options));
 }
 
-VtkDetector::Session::State& VtkDetector::state(Session& session) {
-  if (!session.state_) session.state_ = make_hidden<Session::State>();
-  return *session.state_;
-}
-
-std::optional<double> VtkDetector::reach_from(const Vec3& center, double reach) const noexcept {
-  const Model& model = *model_;
-  if (model.options.query == Asking::checked && out_of_reach(model.bounds, center, reach))
-    return std::nullopt;
-  const double finite = finite_reach(model.bounds, center, reach);
-  if (!answerable(center, finite)) return std::nullopt;
-  return finite;
-}
-
 /// The closest point of all triangles that VTK finds in the ball. It finds nothing within a radius of 0.
 std::optional<Contact> VtkDetector::nearest_in_ball(const Vec3& center, double radius,
-                                                    Session::State& state) const noexcept {
+                                                    Session& session) const noexcept {
   const Model& model = *model_;
   std::array<double, 3> from{center.x(), center.y(), center.z()}, point;
   vtkIdType triangle = -1;
   int part = 0, inside = 0;
   double squared = 0;
   const double within = std::max(a_little_more * radius, 0x1p-40 * model.bounds.diagonal());
-  if (model.locator->FindClosestPointWithinRadius(from.data(), within, point.data(), state.cell, triangle,
-                                                  part, squared, inside) == 0)
+  if (model.locator->FindClosestPointWithinRadius(from.data(), within, point.data(), session.ready().cell,
+                                                  triangle, part, squared, inside) == 0)
     return std::nullopt;
   const Vec3 at(point[0], point[1], point[2]);
   const double distance = (center - at).norm();
   if (!(distance <= radius)) return std::nullopt;
-  state.last = static_cast<std::uint32_t>(triangle);
+  session.last = static_cast<std::uint32_t>(triangle);
   const Vec3 normal =
-      distance > 0 ? Vec3((center - at) / distance) : face_normal(model.triangles[state.last]);
-  return Contact{at, normal, distance, model.ids[state.last]};
+      distance > 0 ? Vec3((center - at) / distance) : face_normal(model.triangles[session.last]);
+  return Contact{at, normal, distance, model.ids[session.last]};
 }
 
 /// The closest point of all triangles, as the signed distance has it.
@@ -129,54 +109,52 @@ std::optional<Contact> VtkDetector::nearest_of_all(const Vec3& center, double re
 
 bool VtkDetector::touches(const Probe& probe, Session& session) const noexcept {
   const Model& model = *model_;
-  const std::optional<double> radius = reach_from(probe.center, probe.radius);
+  std::uint32_t last = session.last;  // stays as it is
+  const std::optional<double> radius = model.reach_to_ask(probe.center, probe.radius, last);
   if (!radius) return false;
   if (model.options.locator == Locator::implicit) return nearest_of_all(probe.center, *radius).has_value();
-  Session::State& state = VtkDetector::state(session);
-  if (model.options.query == Asking::checked && state.last < model.triangles.size()) {
+  if (model.checked() && session.last < model.triangles.size()) {
     ++session.work.triangles;
-    const double distance = std::sqrt(squared_distance(model.triangles[state.last], probe.center));
+    const double distance = std::sqrt(squared_distance(model.triangles[session.last], probe.center));
     if (a_little_more * distance <= *radius) return true;
   }
-  return nearest_in_ball(probe.center, *radius, state).has_value();
+  return nearest_in_ball(probe.center, *radius, session).has_value();
 }
 
 std::optional<Contact> VtkDetector::nearest(const Probe& probe, double reach,
                                             Session& session) const noexcept {
   const Model& model = *model_;
-  const std::optional<double> finite = reach_from(probe.center, reach);
+  const std::optional<double> finite = model.reach_to_ask(probe.center, reach, session.last);
   if (model.options.locator == Locator::implicit)
     return finite ? nearest_of_all(probe.center, *finite) : std::nullopt;
-  Session::State& state = VtkDetector::state(session);
   if (!finite) {
-    state.last = no_triangle;
+    session.last = no_triangle;
     return std::nullopt;
   }
   double within = *finite;
-  if (model.options.query == Asking::checked && state.last < model.triangles.size()) {
+  if (model.checked() && session.last < model.triangles.size()) {
     ++session.work.triangles;
-    within = std::min(within,
-                      a_little_more * std::sqrt(squared_distance(model.triangles[state.last], probe.center)));
+    within = std::min(
+        within, a_little_more * std::sqrt(squared_distance(model.triangles[session.last], probe.center)));
   }
-  const auto ask = [&](double radius) { return nearest_in_ball(probe.center, radius, state); };
+  const auto ask = [&](double radius) { return nearest_in_ball(probe.center, radius, session); };
   std::optional<Contact> contact = nearest_by_growing(model.bounds, probe.center, within, ask);
   // What VTK thinks of the last triangle may be more than what it is.
   if (!contact && within < *finite) contact = nearest_by_growing(model.bounds, probe.center, *finite, ask);
-  if (!contact) state.last = no_triangle;
+  if (!contact) session.last = no_triangle;
   return contact;
 }
 
 std::size_t VtkDetector::bytes() const noexcept {
   const Model& model = *model_;
-  return std::size_t{1024} * model.data->GetActualMemorySize() +
-         model.triangles.capacity() * sizeof(PreparedTriangle) + model.ids.bytes();
+  return std::size_t{1024} * model.data->GetActualMemorySize() + model.own_bytes();
 }
 
 Accuracy VtkDetector::accuracy() const noexcept {
   // The closest point is a place, rounded to its coordinates, after some arithmetic with differences of such.
-  const double largest = model_->bounds.min.cwiseAbs().cwiseMax(model_->bounds.max.cwiseAbs()).maxCoeff();
   constexpr double roundoff = std::numeric_limits<double>::epsilon() / 2;
-  return {Guarantee::approximate, 4 * kernel_relative_error, 8 * roundoff * largest};
+  return {Guarantee::approximate, 4 * kernel_relative_error,
+          8 * roundoff * largest_coordinate(model_->bounds)};
 }
 
 }  // namespace touchmark::baselines

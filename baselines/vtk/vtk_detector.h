@@ -7,9 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "baselines/hidden.h"
-#include "baselines/reach.h"
-#include "core/detector.h"
+#include "baselines/rival.h"
 
 namespace touchmark::baselines {
 
@@ -25,15 +23,9 @@ class VtkDetector {
     Asking query = Asking::checked;
   };
 
-  class Session {
-   public:
-    Work work;  ///< triangles: those that are asked before VTK. It does not tell what it looks at.
-
-   private:
-    friend class VtkDetector;
-    struct State;
-    Hidden<State> state_;
-  };
+  struct State;
+  /// work.triangles: those that are asked before VTK. It does not tell what it looks at.
+  using Session = StatefulSession<State>;
 
   /// Throws MeshError for a mesh without triangles.
   static VtkDetector build(const TriangleMesh& mesh, const Options& options);
@@ -50,11 +42,7 @@ class VtkDetector {
  private:
   struct Model;
   explicit VtkDetector(Hidden<Model> model) noexcept : model_(std::move(model)) {}
-  static Session::State& state(Session& session);
-  /// The reach that is asked for, or nothing where nothing is to be found.
-  std::optional<double> reach_from(const Vec3& center, double reach) const noexcept;
-  std::optional<Contact> nearest_in_ball(const Vec3& center, double radius,
-                                         Session::State& state) const noexcept;
+  std::optional<Contact> nearest_in_ball(const Vec3& center, double radius, Session& session) const noexcept;
   std::optional<Contact> nearest_of_all(const Vec3& center, double reach) const noexcept;
 
   Hidden<Model> model_;
