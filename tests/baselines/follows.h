@@ -33,6 +33,7 @@ void expect_to_follow(const TriangleMesh& mesh, const TriangleMesh& other, const
     }
   }
   EXPECT_THROW(detector.update(TriangleMesh({{0, 0, 0}}, {{0, 0, 0}})), std::invalid_argument);
+  EXPECT_THROW(detector.update(bumps(11)), std::invalid_argument);
 }
 
 }  // namespace touchmark::baselines

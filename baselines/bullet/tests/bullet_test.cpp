@@ -1,7 +1,6 @@
 /// Built twice: over Bullet's float library and over its double library.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "baselines/bullet/bullet_detector.h"
 #include "baselines/bullet/bullet_scene.h"
 #include "core/brute_force/brute_force.h"
+#include "tests/baselines/answers.h"
 #include "tests/baselines/asking.h"
 #include "tests/baselines/exact_form.h"
 #include "tests/baselines/follows.h"
@@ -27,7 +27,6 @@ using Frame = BulletDetector::Frame;
 static_assert(AnswersTouches<BulletDetector> && AnswersNearest<BulletDetector> &&
               AnswersSweep<BulletDetector>);
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const bool is_float = BulletDetector::precision() == BulletDetector::Precision::single_precision;
 /// What Bullet's own numbers are good for on a mesh of size 1.
 const double roundings = is_float ? 2e-6 : 4e-15;
@@ -56,12 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Bullet, EveryBullet, testing::Values(as_it_stands, fitt
                          });
 
 TEST_P(EveryBullet, FindsTheTriangleBelowTheProbe) {
-  const auto contact = build(square()).nearest({{0.75, 0.75, 2}, 0}, 3, session);
-  ASSERT_TRUE(contact);
-  EXPECT_EQ(contact->triangle, 1u);
-  EXPECT_NEAR(contact->distance, 2, roundings);
-  EXPECT_LT((contact->point - Vec3(0.75, 0.75, 0)).norm(), roundings);
-  EXPECT_LT((contact->normal - Vec3(0, 0, 1)).norm(), roundings);
+  expect_the_triangle_below_the_probe(build(square()), session, roundings);
 }
 
 TEST_P(EveryBullet, AnswersAtInfiniteReach) {
@@ -72,58 +66,29 @@ TEST_P(EveryBullet, AnswersAtInfiniteReach) {
 }
 
 TEST_P(EveryBullet, FindsNothingBeyondTheReach) {
-  const BulletDetector detector = build(square());
-  EXPECT_TRUE(detector.nearest({{0.25, 0.25, 0.5}, 0}, 0.501, session));
-  EXPECT_FALSE(detector.nearest({{0.25, 0.25, 0.5}, 0}, 0.499, session));
-  EXPECT_FALSE(detector.nearest({{0.25, 0.25, 0.5}, 0}, -1, session));
+  expect_nothing_beyond_the_reach(build(square()), session, 0.501, 0.499);
 }
 
 TEST_P(EveryBullet, TouchesUpToTheRadius) {
-  const BulletDetector detector = build(square());
-  EXPECT_TRUE(detector.touches({{0.25, 0.25, 0.5}, 0.501}, session));
-  EXPECT_FALSE(detector.touches({{0.25, 0.25, 0.5}, 0.499}, session));
-  EXPECT_TRUE(detector.touches({{0.25, 0.25, 0.5}, infinity}, session));
+  expect_touches_up_to_the_radius(build(square()), session, 0.501);
 }
 
 TEST_P(EveryBullet, AProbeThatIsNotANumberTouchesNothing) {
-  const BulletDetector detector = build(square());
-  const Vec3 nan = Vec3::Constant(std::nan(""));
-  EXPECT_FALSE(detector.nearest({nan, 1}, infinity, session));
-  EXPECT_FALSE(detector.touches({nan, 1}, session));
-  EXPECT_FALSE(detector.touches({Vec3::Constant(infinity), 1}, session));
-  EXPECT_FALSE(detector.first_hit({Vec3::Zero(), nan, 1}, session));
+  expect_what_is_not_a_number_to_touch_nothing(build(square()), session);
 }
 
 TEST_P(EveryBullet, GivesTheIdsOfTheFile) {
-  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 9}, {1, 0, 9}, {0, 1, 9}},
-                          {{0, 1, 2}, {1, 3, 2}, {4, 5, 6}}, {7, 7, 9});
-  const BulletDetector detector = build(mesh);
-  EXPECT_EQ(detector.nearest({{0.75, 0.75, 2}, 0}, 3, session)->triangle, 7u);
-  EXPECT_EQ(detector.nearest({{0.25, 0.25, 8}, 0}, 3, session)->triangle, 9u);
-  EXPECT_EQ(detector.first_hit({{0.25, 0.25, 20}, {0.25, 0.25, 1}, 0.5}, session)->contact.triangle, 9u);
+  expect_the_ids_of_the_file([this](const TriangleMesh& mesh) { return build(mesh); }, 2);
 }
 
 TEST_P(EveryBullet, FindsTheTouchingProbesOfBruteForce) {
   const TriangleMesh mesh = bumps(12);
-  const BulletDetector detector = build(mesh);
-  const BruteForce reference = BruteForce::build(mesh);
-  BruteForce::Session reference_session;
-  Random random(3);
-  int touching = 0;
-  for (int trial = 0; trial < 300; ++trial) {
-    const Vec3 center = random.point();
-    const double distance = reference.nearest({center, 0}, infinity, reference_session)->distance;
-    EXPECT_TRUE(detector.touches({center, distance * 1.001}, session)) << trial;
-    EXPECT_FALSE(detector.touches({center, distance * 0.999}, session)) << trial;
-    const auto contact = detector.nearest({center, 0}, 0.3, session);
-    EXPECT_EQ(contact.has_value(), distance <= 0.3) << trial;
-    touching += contact.has_value();
+  expect_the_touches_of_brute_force(mesh, build(mesh), 1, 0.3, [](const Contact& contact, double distance) {
     // Float Bullet in the mesh's own frame reads 0 for whatever is nearer than 3.45e-4.
-    if (contact && distance > 3.5e-4) {
-      EXPECT_NEAR(contact->distance, distance, roundings) << trial;
+    if (distance > 3.5e-4) {
+      EXPECT_NEAR(contact.distance, distance, roundings);
     }
-  }
-  EXPECT_GT(touching, 30);
+  });
 }
 
 TEST_P(EveryBullet, ASweepStopsAtTheFirstOfTwoLayers) {
@@ -151,19 +116,7 @@ TEST_P(EveryBullet, ASweepThatStaysAwayHitsNothing) {
 }
 
 TEST_P(EveryBullet, AUsedSessionAndAFreshOneGiveTheSameBits) {
-  const BulletDetector detector = build(bumps(12));
-  Random random(4);
-  for (int trial = 0; trial < 200; ++trial) {
-    const Vec3 center = random.point();
-    BulletDetector::Session fresh;
-    const auto used = detector.nearest({center, 0}, 0.3, session);
-    const auto first = detector.nearest({center, 0}, 0.3, fresh);
-    ASSERT_EQ(used.has_value(), first.has_value()) << trial;
-    if (!used) continue;
-    EXPECT_EQ(used->distance, first->distance) << trial;
-    EXPECT_EQ(used->triangle, first->triangle) << trial;
-    EXPECT_EQ(used->point, first->point) << trial;
-  }
+  expect_used_and_fresh_sessions_to_give_the_same_bits(build(bumps(12)));
 }
 
 TEST_P(EveryBullet, ASessionMayGoFromOneMeshToAnother) {
@@ -254,8 +207,6 @@ TEST(Bullet, FollowsVerticesThatMove) {
            {BulletDetector::Method::callback, BulletDetector::Frame::mesh},
            {BulletDetector::Method::callback, BulletDetector::Frame::fitted}}) {
     expect_to_follow<BulletDetector>(mesh, other, form);
-    BulletDetector detector = BulletDetector::build(mesh, form);
-    EXPECT_THROW(detector.update(bumps(11)), std::invalid_argument);
   }
 }
 

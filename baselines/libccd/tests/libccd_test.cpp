@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 
 #include "baselines/libccd/libccd_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "tests/baselines/answers.h"
 #include "tests/baselines/asking.h"
 #include "tests/baselines/meshes.h"
 #include "tests/baselines/threads.h"
@@ -22,7 +22,6 @@ using Frame = LibccdDetector::Frame;
 static_assert(AnswersTouches<LibccdDetector> && AnswersNearest<LibccdDetector>);
 static_assert(!AnswersSweep<LibccdDetector>, "libccd has no sweep, its name notwithstanding");
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// What GJK with EPA and MPR are good for where the ball and the triangle are of a size, in radii.
 constexpr double good = 0.01;
 
@@ -46,17 +45,11 @@ TEST_P(EveryLibccd, FindsTheTriangleBelowTheProbe) {
 }
 
 TEST_P(EveryLibccd, FindsNothingBeyondTheReach) {
-  const LibccdDetector detector = build(square());
-  EXPECT_TRUE(detector.nearest({{0.25, 0.25, 0.5}, 0}, 0.51, session));
-  EXPECT_FALSE(detector.nearest({{0.25, 0.25, 0.5}, 0}, 0.49, session));
-  EXPECT_FALSE(detector.nearest({{0.25, 0.25, 0.5}, 0}, -1, session));
+  expect_nothing_beyond_the_reach(build(square()), session, 0.51, 0.49);
 }
 
 TEST_P(EveryLibccd, TouchesUpToTheRadius) {
-  const LibccdDetector detector = build(square());
-  EXPECT_TRUE(detector.touches({{0.25, 0.25, 0.5}, 0.501}, session));
-  EXPECT_FALSE(detector.touches({{0.25, 0.25, 0.5}, 0.499}, session));
-  EXPECT_TRUE(detector.touches({{0.25, 0.25, 0.5}, infinity}, session));
+  expect_touches_up_to_the_radius(build(square()), session, 0.501);
 }
 
 TEST_P(EveryLibccd, AnswersAtInfiniteReach) {
@@ -66,39 +59,19 @@ TEST_P(EveryLibccd, AnswersAtInfiniteReach) {
 }
 
 TEST_P(EveryLibccd, AProbeThatIsNotANumberTouchesNothing) {
-  const LibccdDetector detector = build(square());
-  const Vec3 nan = Vec3::Constant(std::nan(""));
-  EXPECT_FALSE(detector.nearest({nan, 1}, infinity, session));
-  EXPECT_FALSE(detector.touches({nan, 1}, session));
-  EXPECT_FALSE(detector.touches({Vec3::Constant(infinity), 1}, session));
+  expect_what_is_not_a_number_to_touch_nothing(build(square()), session);
 }
 
 TEST_P(EveryLibccd, GivesTheIdsOfTheFile) {
-  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 9}, {1, 0, 9}, {0, 1, 9}},
-                          {{0, 1, 2}, {1, 3, 2}, {4, 5, 6}}, {7, 7, 9});
-  const LibccdDetector detector = build(mesh);
-  EXPECT_EQ(detector.nearest({{0.75, 0.75, 0.5}, 0}, 1, session)->triangle, 7u);
-  EXPECT_EQ(detector.nearest({{0.25, 0.25, 8.5}, 0}, 1, session)->triangle, 9u);
+  expect_the_ids_of_the_file([this](const TriangleMesh& mesh) { return build(mesh); }, 0.5);
 }
 
 void expect_touches_of_brute_force(const TriangleMesh& mesh, const LibccdDetector& detector, double size) {
-  const BruteForce reference = BruteForce::build(mesh);
-  BruteForce::Session reference_session;
-  LibccdDetector::Session session;
-  Random random(3);
-  int touching = 0, far_off = 0;
-  for (int trial = 0; trial < 300; ++trial) {
-    const Vec3 center = size * random.point();
-    const double distance = reference.nearest({center, 0}, infinity, reference_session)->distance;
-    EXPECT_TRUE(detector.touches({center, distance * 1.001}, session)) << trial;
-    EXPECT_FALSE(detector.touches({center, distance * 0.999}, session)) << trial;
-    const auto contact = detector.nearest({center, 0}, 0.2 * size, session);
-    EXPECT_EQ(contact.has_value(), distance <= 0.2 * size) << trial;
-    if (!contact) continue;
-    ++touching;
-    far_off += std::abs(contact->distance - distance) > 0.1 * 0.2 * size;  // a tenth of the reach
-  }
-  EXPECT_GT(touching, 30);
+  int far_off = 0;
+  const auto check = [&](const Contact& contact, double distance) {
+    far_off += std::abs(contact.distance - distance) > 0.1 * 0.2 * size;  // a tenth of the reach
+  };
+  const int touching = expect_the_touches_of_brute_force(mesh, detector, size, 0.2 * size, check);
   EXPECT_LE(far_off, touching / 20);  // some always are: see the traps
 }
 
