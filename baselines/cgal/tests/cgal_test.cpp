@@ -8,6 +8,7 @@
 
 #include "baselines/cgal/cgal_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "tests/baselines/asking.h"
 #include "tests/baselines/meshes.h"
 
@@ -16,7 +17,6 @@ namespace {
 
 static_assert(AnswersTouches<CgalDetector> && AnswersNearest<CgalDetector> && !AnswersSweep<CgalDetector>);
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using Options = CgalDetector::Options;
 using Kernel = CgalDetector::Kernel;
 using Hint = CgalDetector::Hint;

@@ -9,6 +9,7 @@
 
 #include "baselines/embree/embree_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "tests/baselines/follows.h"
 #include "tests/baselines/meshes.h"
 
@@ -18,7 +19,6 @@ namespace {
 static_assert(AnswersTouches<EmbreeDetector> && AnswersNearest<EmbreeDetector> &&
               !AnswersSweep<EmbreeDetector>);
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using Options = EmbreeDetector::Options;
 using Geometry = EmbreeDetector::Geometry;
 using Quality = EmbreeDetector::Quality;

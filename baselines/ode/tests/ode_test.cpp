@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -7,6 +6,7 @@
 
 #include "baselines/ode/ode_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "tests/baselines/asking.h"
 #include "tests/baselines/meshes.h"
 
@@ -16,8 +16,6 @@ namespace {
 using Sides = OdeDetector::Sides;
 
 static_assert(AnswersTouches<OdeDetector> && AnswersNearest<OdeDetector> && !AnswersSweep<OdeDetector>);
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Ode, KnowsAMeshFromTheSideOfItsNormalsUnlessItIsThereTwice) {
   const OdeDetector front = OdeDetector::build(square()),

@@ -9,6 +9,7 @@
 
 #include "baselines/openvdb/openvdb_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "tests/baselines/asking.h"
 #include "tests/baselines/meshes.h"
 #include "tests/baselines/threads.h"
@@ -21,8 +22,6 @@ using Found = OpenVdbDetector::Found;
 
 static_assert(AnswersTouches<OpenVdbDetector> && AnswersNearest<OpenVdbDetector> &&
               !AnswersSweep<OpenVdbDetector>);
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The closed box of half the edges `half` about the origin, normals outward.
 TriangleMesh box(const Vec3& half) {

@@ -11,6 +11,7 @@
 
 #include "baselines/vtk/vtk_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "tests/baselines/asking.h"
 #include "tests/baselines/meshes.h"
 #include "tests/baselines/threads.h"
@@ -21,8 +22,6 @@ namespace {
 using Locator = VtkDetector::Locator;
 
 static_assert(AnswersTouches<VtkDetector> && AnswersNearest<VtkDetector> && !AnswersSweep<VtkDetector>);
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void expect_what_brute_force_finds(const TriangleMesh& mesh, const VtkDetector::Options& options, double size,
                                    const Vec3& middle) {
