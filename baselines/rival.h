@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -37,6 +38,9 @@ struct StatefulSession : RivalSession {
   Hidden<State> state;
 };
 
+/// Keeps triangles as near as the last one within, whatever the library computes of it.
+inline constexpr double a_little_more = 1 + 1e-6;
+
 /// What a model keeps beside the library's own structures, and the checks before a query.
 template <class Options>
 struct RivalModel {
@@ -55,6 +59,22 @@ struct RivalModel {
     }
     const double finite = finite_reach(bounds, center, reach);
     return answerable(center, finite) ? std::optional(finite) : std::nullopt;
+  }
+
+  /// As nearest_by_growing, up to the last triangle first. Where the library finds nothing there, since it
+  /// does not know that triangle or computes more than its distance, up to the reach.
+  template <class Ask>
+  std::optional<Contact> nearest_from_last(const Vec3& center, double reach, RivalSession& session,
+                                           const Ask& ask) const {
+    double within = reach;
+    if (checked() && session.last < triangles.size()) {
+      ++session.work.triangles;
+      within = std::min(reach, a_little_more * std::sqrt(squared_distance(triangles[session.last], center)));
+    }
+    std::optional<Contact> contact = nearest_by_growing(bounds, center, within, ask);
+    if (!contact && within < reach) contact = nearest_by_growing(bounds, center, reach, ask);
+    if (!contact) session.last = no_triangle;
+    return contact;
   }
 
   /// Prepares the triangles that have moved once more.

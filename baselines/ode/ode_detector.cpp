@@ -122,19 +122,9 @@ std::optional<Contact> OdeDetector::nearest(const Probe& probe, double reach,
   const Vec3& center = probe.center;
   const std::optional<double> finite = model.reach_to_ask(center, reach, session.last);
   if (!finite) return std::nullopt;
-  double within = *finite;
-  if (model.checked() && session.last < model.triangles.size()) {
-    constexpr double a_little_more = 1 + 1e-6;  // so that triangles as near stay within
-    ++session.work.triangles;
-    within =
-        std::min(within, a_little_more * std::sqrt(squared_distance(model.triangles[session.last], center)));
-  }
-  const auto ask = [&](double radius) { return nearest_in_ball(center, radius, session); };
-  std::optional<Contact> contact = nearest_by_growing(model.bounds, center, within, ask);
   // From behind, ODE does not know the last triangle, and what it knows may be farther.
-  if (!contact && within < *finite) contact = nearest_by_growing(model.bounds, center, *finite, ask);
-  if (!contact) session.last = no_triangle;
-  return contact;
+  return model.nearest_from_last(center, *finite, session,
+                                 [&](double radius) { return nearest_in_ball(center, radius, session); });
 }
 
 std::size_t OdeDetector::bytes() const noexcept {

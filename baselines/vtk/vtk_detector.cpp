@@ -23,9 +23,6 @@
 namespace touchmark::baselines {
 namespace {
 
-/// So that triangles as near as the last contact's stay within, whatever VTK computes of it.
-constexpr double a_little_more = 1 + 1e-6;
-
 vtkNew<vtkPolyData> poly_data(const TriangleMesh& mesh) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();  // VTK's default is single precision.
@@ -131,18 +128,10 @@ std::optional<Contact> VtkDetector::nearest(const Probe& probe, double reach,
     session.last = no_triangle;
     return std::nullopt;
   }
-  double within = *finite;
-  if (model.checked() && session.last < model.triangles.size()) {
-    ++session.work.triangles;
-    within = std::min(
-        within, a_little_more * std::sqrt(squared_distance(model.triangles[session.last], probe.center)));
-  }
-  const auto ask = [&](double radius) { return nearest_in_ball(probe.center, radius, session); };
-  std::optional<Contact> contact = nearest_by_growing(model.bounds, probe.center, within, ask);
   // What VTK thinks of the last triangle may be more than what it is.
-  if (!contact && within < *finite) contact = nearest_by_growing(model.bounds, probe.center, *finite, ask);
-  if (!contact) session.last = no_triangle;
-  return contact;
+  return model.nearest_from_last(probe.center, *finite, session, [&](double radius) {
+    return nearest_in_ball(probe.center, radius, session);
+  });
 }
 
 std::size_t VtkDetector::bytes() const noexcept {
