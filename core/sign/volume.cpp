@@ -2,19 +2,18 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include <Eigen/Geometry>
 
 #include "core/exact/big_integer.h"
 #include "core/exact/integer_lattice.h"
+#include "core/float_limits.h"
 
 namespace touchmark::sign {
 namespace {
 
 /// In units of the box, so that no power leaves the range. 0 where rounding hides it.
 int sign_by_doubles(const TriangleMesh& mesh) noexcept {
-  constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
   const Vec3 center = mesh.bounds().center();
   const double size = mesh.bounds().extent().maxCoeff();
   double six_volumes = 0, magnitude = 0;
