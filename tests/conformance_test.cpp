@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <limits>
 #include <new>
 #include <string>
 #include <vector>
@@ -20,12 +19,11 @@
 #include "bench/contestants/contestant_of.h"
 #include "bench/oracle/judge.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "tests/conformance_meshes.h"
 
 namespace touchmark::bench {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// One query along all centres, with one reach.
 struct Part {

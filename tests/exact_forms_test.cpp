@@ -2,7 +2,6 @@
 // give its bits. Small and quick, so that it can be run against every mutant of core.
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "bench/oracle/oracle.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/bench/oracle/corner_case_meshes.h"
@@ -29,8 +29,6 @@ using bench::oracle::Oracle;
 using bench::workload::Answer;
 using bench::workload::Query;
 using bench::workload::Step;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<Answer> ask(bench::contestants::Contestant& detector, Query query,
                         const std::vector<Step>& steps) {

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <cstring>
 #include <future>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -13,6 +12,7 @@
 
 #include "bench/contestants/contestant.h"
 #include "bench/workload/answer.h"
+#include "core/float_limits.h"
 #include "tests/conformance_meshes.h"
 #include "tests/own_forms.h"
 
@@ -23,8 +23,6 @@ using bench::contestants::Contestant;
 using bench::workload::Answer;
 using bench::workload::Query;
 using bench::workload::QueryTrace;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Four questions of each centre in turn, so that a session sees them mixed.
 class Questions {

@@ -14,6 +14,7 @@
 
 #include "bench/experiments/stress/shared_features.h"
 #include "bench/oracle/oracle.h"
+#include "core/float_limits.h"
 #include "core/grid_group/grid_group.h"
 #include "tests/bench/oracle/corner_case_meshes.h"
 #include "tests/own_forms.h"
@@ -25,7 +26,6 @@ using bench::workload::Answer;
 using bench::workload::Query;
 using bench::workload::Step;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Query all_queries[] = {Query::touches, Query::nearest, Query::sweep};
 
 /// All triangles in one place, but for a few that make the box large.

@@ -5,14 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include "core/float_limits.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 
 namespace touchmark {
 namespace {
 
 static_assert(AnswersTouches<BruteForce> && AnswersNearest<BruteForce> && AnswersSweep<BruteForce>);
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TriangleMesh two_triangles() {
   return TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});

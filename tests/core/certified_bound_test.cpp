@@ -3,7 +3,6 @@
 // climbing from each towards greater error. The analysis is in docs/exactness.md, E5; it allows 14.8.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -15,6 +14,7 @@
 #include "core/aabb.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/grid_group/grid_group.h"
 #include "core/search/linear_scan.h"
 #include "core/sphere_cluster/sphere_cluster.h"
@@ -26,7 +26,6 @@ namespace {
 using bench::experiments::stress::mesh_of;
 
 constexpr double unit_roundoff = 0x1p-53;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// |d - d*| / (u M).
 double error_in_roundings(const CornerCase& c) {

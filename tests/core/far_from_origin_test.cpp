@@ -2,7 +2,6 @@
 // what is measured at the nearest one must not be taken for what holds of the place.
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "bench/support/random.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/grid_group/direct/cell_tree.h"
 #include "core/grid_group/grid_group.h"
 #include "core/grid_group/published/published_grid_group.h"
@@ -25,8 +25,6 @@ namespace touchmark {
 namespace {
 
 using bench::support::Random;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Vec3 somewhere(Random& random, double largest) {
   const auto one = [&] { return largest * (2 * random.unit() - 1); };

@@ -18,13 +18,12 @@
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/aabb_tree/float_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 
 namespace touchmark {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Lattice {
  public:

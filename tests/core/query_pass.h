@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "bench/contestants/contestant.h"
 #include "bench/workload/answer.h"
 #include "bench/workload/steps.h"
+#include "core/float_limits.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::test {
@@ -39,7 +39,6 @@ inline TriangleMesh sheet(std::uint32_t n) {
 class QueryPass {
  public:
   QueryPass() {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 200; ++i) {
       // Along the sheet, away from it, far outside, and back.
       const Vec3 position(i / 200.0, 0.4, 0.05 + (i % 20 == 0 ? 30 : 0.001 * (i % 7)));

@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "bench/oracle/oracle.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/grid_group/grid_group.h"
 #include "core/grid_group/published/published_grid_group.h"
 #include "core/sphere_cluster/published/published_sphere_cluster.h"
@@ -24,7 +24,6 @@ namespace touchmark {
 namespace {
 
 constexpr double unit_roundoff = 0x1p-53;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A mesh and probes whose radii are at the distance, beside it, and far from it.
 struct AskedMesh {

@@ -2,7 +2,6 @@
 // session it was asked with before, and from fresh ones.
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "bench/workload/answer.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/grid_group/grid_group.h"
 #include "core/grid_group/published/published_grid_group.h"
 #include "core/sign/signed_detector.h"
@@ -26,8 +26,6 @@ namespace {
 
 using bench::support::Random;
 using bench::workload::Answer;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 static_assert(Updates<BruteForce> && Updates<AabbTree> && Updates<SphereCluster> && Updates<GridGroup>);
 static_assert(Updates<Signed<SphereCluster>>);

@@ -10,6 +10,7 @@
 
 #include "bench/oracle/judge.h"
 #include "bench/oracle/oracle.h"
+#include "core/float_limits.h"
 #include "tests/fuzz/script.h"
 #include "tests/fuzz/target.h"
 #include "tests/own_forms.h"
@@ -21,8 +22,6 @@ using bench::oracle::GroundTruth;
 using bench::workload::Answer;
 using bench::workload::Query;
 using bench::workload::Step;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double read_length(Script& script, double distance) {
   switch (script.below(8)) {

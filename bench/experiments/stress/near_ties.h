@@ -4,12 +4,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "bench/experiments/stress/corner_cases.h"
 #include "bench/oracle/oracle.h"
+#include "core/float_limits.h"
 
 namespace touchmark::bench::experiments::stress {
 
@@ -25,7 +25,6 @@ inline TriangleMesh turned_images(CornerCases& cases, std::size_t count) {
     for (int turn = 0; turn < 3; ++turn) {
       CornerCases::Corners image = corners;
       double& one = image[cases.below(3)][static_cast<int>(cases.below(3))];
-      constexpr double infinity = std::numeric_limits<double>::infinity();
       for (std::size_t ulps = cases.below(3); ulps > 0; --ulps)
         one = std::nextafter(one, cases.below(2) == 0 ? infinity : -infinity);
       triangles.push_back(image);
@@ -55,7 +54,6 @@ inline Vec3 where_the_nearest_changes(const oracle::Oracle& oracle, Vec3 from, V
 
 /// It and some doubles beside it.
 inline std::vector<Vec3> with_neighbors(const Vec3& position, CornerCases& cases) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<Vec3> positions(8, position);
   for (std::size_t i = 1; i < positions.size(); ++i)
     for (double& x : positions[i])

@@ -6,6 +6,7 @@
 
 #include "bench/oracle/exact/exact_distance.h"
 #include "bench/oracle/exact/interval_distance.h"
+#include "bench/oracle/float_limits.h"
 #include "tests/bench/oracle/corner_case_triangles.h"
 #include "tests/bench/oracle/rational_hull.h"
 
@@ -14,8 +15,6 @@ namespace touchmark::bench::oracle {
 namespace stress = experiments::stress;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Case {
   Vec3 from, to;

@@ -6,10 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/oracle/float_limits.h"
+
 namespace touchmark::bench::oracle {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const Triangle right_angle = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
 
 ExactNearest nearest(const Vec3& point, const Triangle& triangle) {

@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "bench/oracle/float_limits.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/bench/oracle/corner_case_meshes.h"
 
@@ -21,7 +22,6 @@ namespace stress = experiments::stress;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr Accuracy exact = {Guarantee::exact, kernel_relative_error, 0};
 constexpr double radius = 0.05;

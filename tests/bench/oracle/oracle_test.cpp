@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/oracle/exact/exact_distance.h"
+#include "bench/oracle/float_limits.h"
 #include "tests/bench/oracle/corner_case_meshes.h"
 
 namespace touchmark::bench::oracle {
@@ -13,8 +14,6 @@ namespace touchmark::bench::oracle {
 namespace stress = experiments::stress;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<Triangle> all_triangles(const TriangleMesh& mesh) {
   std::vector<Triangle> triangles;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -10,11 +9,10 @@
 #include "bench/support/random.h"
 #include "bench/trajectories/mesh_edges.h"
 #include "core/aabb_tree/aabb_tree.h"
+#include "core/float_limits.h"
 
 namespace touchmark::bench::trajectories {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Twelve triangles, edges of length 1 along the axes.
 TriangleMesh cube() {

@@ -10,6 +10,7 @@
 
 #include "bench/support/random.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 
 namespace touchmark {
 namespace {
@@ -17,8 +18,6 @@ namespace {
 using bench::support::Random;
 
 static_assert(AnswersTouches<AabbTree> && AnswersNearest<AabbTree> && AnswersSweep<AabbTree>);
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Triangles of all sizes, some degenerate, some twice, in one place and far from the origin.
 TriangleMesh soup(std::size_t triangles, double offset) {

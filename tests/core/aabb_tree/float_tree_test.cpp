@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,12 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "bench/oracle/oracle.h"
+#include "core/float_limits.h"
 #include "tests/bench/oracle/corner_case_meshes.h"
 
 namespace touchmark {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double as_declared = 1 + 0x1p-50;  // the bound is evaluated in double
 
 struct Errors {

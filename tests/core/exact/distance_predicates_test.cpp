@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/oracle/exact/exact_distance.h"
+#include "core/float_limits.h"
 #include "tests/bench/oracle/corner_case_triangles.h"
 
 namespace touchmark {
@@ -17,7 +18,6 @@ namespace {
 
 using Corners = CornerCases::Corners;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 

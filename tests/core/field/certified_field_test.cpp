@@ -16,6 +16,7 @@
 
 #include "bench/workload/answer.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 
@@ -26,8 +27,6 @@ using Field = CertifiedField<SphereCluster>;
 using bench::workload::Answer;
 
 static_assert(AnswersTouches<Field> && AnswersNearest<Field>);
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Field::Options with(double error, double band, bool refines = false) {
   Field::Options options;

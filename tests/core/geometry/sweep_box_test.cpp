@@ -1,13 +1,11 @@
 #include "core/geometry/sweep_box.h"
 
-#include <limits>
-
 #include <gtest/gtest.h>
+
+#include "core/float_limits.h"
 
 namespace touchmark {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(SweepBox, IsEnteredWhereTheWidenedBoxBegins) {
   const Aabb box{Vec3(2, -1, -1), Vec3(3, 1, 1)};

@@ -1,13 +1,13 @@
 /// Every form of the grid against brute force, bit for bit.
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/grid_group/grid_group.h"
 #include "core/grid_group/published/published_grid_group.h"
 #include "tests/core/grid_group/meshes.h"
@@ -17,8 +17,6 @@ namespace {
 
 using testing::NamedMesh;
 using testing::Random;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class D>
 struct Contestant {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/grid_group/published/published_grid_group.h"
 #include "core/search/plane_filter/plane_filter.h"
@@ -24,8 +24,6 @@ static_assert(Updates<PublishedGridGroup> && AnswersTouches<PublishedGridGroup> 
 
 using Shape = PublishedGridGroup::Shape;
 using testing::icosphere;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TriangleMesh two_triangles() {
   return TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "bench/support/random.h"
+#include "core/float_limits.h"
 
 namespace touchmark {
 namespace {
@@ -76,7 +76,7 @@ void expect_follows(std::uint64_t seed, std::uint32_t bodies, double size, const
     const Vec3 from = place(random);
     Aabb region = {from, from};
     if (random.below(2) == 0) region.extend(from + random.point(0.1 * size));
-    for (const double limit : {0.0, 0.1 * size, 0.5 * size, std::numeric_limits<double>::infinity()})
+    for (const double limit : {0.0, 0.1 * size, 0.5 * size, infinity})
       expect_finds_all_within(tree, boxes, region, limit);
   }
   while (!boxes.empty()) {
@@ -113,7 +113,6 @@ TEST(BodyTree, FindsThoseOfSizesNearTheEndsOfSinglePrecision) {
 }
 
 TEST(BodyTree, FindsABodyWhosePlaceIsNoNumberFromAnywhere) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   BodyTree tree;
   Boxes boxes;
   Random random(6);
@@ -142,13 +141,13 @@ TEST(BodyTree, GoesOnWithTheLimitThatAVisitReturns) {
   }
   for (int i = 0; i < 200; ++i) {
     const Vec3 at = random.point(1.5);
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = infinity;
     std::size_t visits = 0;
     tree.for_each_within(Aabb{at, at}, nearest, [&](std::uint32_t body) {
       ++visits;
       return nearest = std::min(nearest, (places[body] - at).norm());
     });
-    double expected = std::numeric_limits<double>::infinity();
+    double expected = infinity;
     for (const Vec3& place : places) expected = std::min(expected, (place - at).norm());
     EXPECT_EQ(nearest, expected);
     EXPECT_LE(visits, 100u);

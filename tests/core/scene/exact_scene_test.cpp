@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -10,6 +9,7 @@
 
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/grid_group/grid_group.h"
 #include "core/scene/scene.h"
 #include "core/sphere_cluster/sphere_cluster.h"
@@ -19,8 +19,6 @@ namespace touchmark {
 namespace {
 
 using test::Random, test::random_pose;
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 TriangleMesh box(const Vec3& half, const Vec3& center = Vec3::Zero()) {
   std::vector<Vec3> v;
@@ -99,7 +97,7 @@ struct Twin {
   void check(const Vec3& point) {
     ++asked;
     const auto truth = exact_scene::nearest(bodies, point);
-    const auto found = scene.nearest_body({point, 0}, std::numeric_limits<double>::infinity(), session);
+    const auto found = scene.nearest_body({point, 0}, infinity, session);
     ASSERT_EQ(found.has_value(), truth.has_value());
     if (!truth) return;
     EXPECT_EQ(found->body.index, truth->body);

@@ -2,12 +2,12 @@
 // answers are those of the same bodies over brute force, which lists nothing, bit for bit.
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/scene/scene.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/scene/random_pose.h"
@@ -16,8 +16,6 @@ namespace touchmark {
 namespace {
 
 using test::Random, test::random_pose;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A closed bumpy ball of about the diameter 1, of 2 * n * n triangles.
 TriangleMesh ball(int n, double bumps, double scale) {

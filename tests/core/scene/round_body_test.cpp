@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/support/random.h"
+#include "core/float_limits.h"
 #include "core/scene/scene.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/scene/exact_scene.h"
@@ -17,8 +18,6 @@ namespace {
 
 using bench::support::Random;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 constexpr mp_bitcnt_t bits = 4096;
 
 using RoundScene = Scene<SphereCluster>;

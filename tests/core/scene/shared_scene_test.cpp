@@ -3,7 +3,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <thread>
 #include <vector>
@@ -11,12 +10,11 @@
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 
 namespace touchmark {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The square |x|, |y| <= 1 in the plane z = 0.
 TriangleMesh square() {

@@ -16,6 +16,7 @@
 #include "bench/oracle/oracle.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/geometry/point_triangle.h"
 #include "core/grid_group/grid_group.h"
 #include "core/grid_group/published/published_grid_group.h"
@@ -26,8 +27,6 @@
 
 namespace touchmark {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 static_assert(AnswersContacts<BruteForce> && AnswersContacts<AabbTree> && AnswersContacts<GridGroup> &&
               AnswersContacts<SphereCluster> && AnswersContacts<Signed<SphereCluster>>);

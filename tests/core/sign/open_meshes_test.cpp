@@ -1,13 +1,13 @@
 /// Where a mesh is open or contradicts itself: decided only where that is clear.
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/sign/open_edges.h"
 #include "core/sign/signed_detector.h"
 #include "tests/core/sign/closed_meshes.h"
@@ -17,8 +17,6 @@ namespace {
 
 using SignedBruteForce = Signed<BruteForce>;
 using Method = SideFinder::Method;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Side side_at(const SignedBruteForce& detector, const Vec3& center) {
   SignedBruteForce::Session session;

@@ -1,7 +1,6 @@
 #include "core/sign/side_finder.h"
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -11,6 +10,7 @@
 #include "bench/oracle/judge.h"
 #include "bench/oracle/oracle.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/sign/signed_detector.h"
 #include "tests/core/sign/closed_meshes.h"
 
@@ -23,7 +23,6 @@ void PrintTo(Side side, std::ostream* out) {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using SignedBruteForce = Signed<BruteForce>;
 
 std::vector<bench::oracle::Triangle> triangles_of(const TriangleMesh& mesh) {

@@ -1,11 +1,10 @@
 #include "core/sign/signed_detector.h"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 
@@ -25,7 +24,6 @@ TYPED_TEST_SUITE(SignedDetector, Detectors);
 TYPED_TEST(SignedDetector, IsBuiltWithoutOptionsAsTheDetectorItselfIs) {
   const auto detector = Signed<TypeParam>::build(tetrahedron());
   typename Signed<TypeParam>::Session session;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto inside = detector.nearest({{0.125, 0.25, 0.25}, 0}, infinity, session);
   ASSERT_TRUE(inside);
   EXPECT_EQ(inside->side, Side::inside);

@@ -3,20 +3,18 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 
 namespace touchmark {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TriangleMesh moved(const TriangleMesh& mesh, double scale, const Vec3& by) {
   std::vector<Vec3> vertices;

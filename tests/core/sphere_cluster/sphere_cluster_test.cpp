@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/sphere_cluster/published/published_sphere_cluster.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 #include "tests/core/touch_then_nearest.h"
@@ -22,7 +23,6 @@ static_assert(Updates<PublishedSphereCluster> && AnswersTouches<PublishedSphereC
               AnswersNearest<PublishedSphereCluster> && AnswersSweep<PublishedSphereCluster> &&
               AnswersContacts<PublishedSphereCluster>);
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Calls check.operator()<D>(options) for the published form and ours.

@@ -7,11 +7,10 @@
 
 #include "bench/meshes/surface_builder.h"
 #include "bench/proxies/tally.h"
+#include "core/float_limits.h"
 
 namespace touchmark::bench::proxies {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The square |x|, |y| <= 1 at z = 0.
 TriangleMesh sheet() {

@@ -13,11 +13,11 @@
 #include "bench/oracle/oracle.h"
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/content_hash.h"
+#include "core/float_limits.h"
 
 namespace touchmark::bench::experiments::stress {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t seed = 7;
 constexpr std::size_t few = 120;
 

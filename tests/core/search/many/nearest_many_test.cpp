@@ -18,6 +18,7 @@
 
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sign/signed_detector.h"
 #include "core/sphere_cluster/sphere_cluster.h"
@@ -29,7 +30,6 @@ namespace {
 using Points = std::vector<Vec3>;
 using Answers = std::vector<std::optional<Contact>>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr AskOrder orders[] = {AskOrder::automatic, AskOrder::as_given, AskOrder::curve};
 

@@ -16,6 +16,7 @@
 #include "bench/oracle/oracle.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/float_limits.h"
 #include "core/grid_group/grid_group.h"
 #include "core/grid_group/published/published_grid_group.h"
 #include "core/sphere_cluster/published/published_sphere_cluster.h"
@@ -25,7 +26,6 @@
 namespace touchmark {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unit_roundoff = 0x1p-53;
 
 std::vector<NamedMesh> meshes() {

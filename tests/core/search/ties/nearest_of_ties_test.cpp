@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "bench/experiments/stress/shared_features.h"
 #include "bench/oracle/exact/exact_distance.h"
 #include "bench/oracle/oracle.h"
+#include "core/float_limits.h"
 #include "tests/bench/oracle/corner_case_triangles.h"
 #include "tests/own_forms.h"
 
@@ -25,8 +25,6 @@ namespace {
 using bench::workload::Answer;
 using bench::workload::Query;
 using bench::workload::Step;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Whole numbers may name the nearest, measure it, and compare it with the reach; and now and then decide
 /// whether a point is exactly across an oblique corner from a triangle.

@@ -2,13 +2,13 @@
 /// the same bits, however it moved.
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "bench/workload/answer.h"
+#include "core/float_limits.h"
 #include "core/search/many/nearest_many.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
@@ -25,8 +25,6 @@ bool same_bits(const std::optional<Contact>& a, const std::optional<Contact>& b)
   const Answer left = a ? Answer::of(*a) : Answer{}, right = b ? Answer::of(*b) : Answer{};
   return std::memcmp(&left, &right, sizeof left) == 0;
 }
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Walks from a random place, in steps as long as this part of the mesh.
 void expect_walks_alike(const SphereCluster& detector, const test::NamedMesh& named, double step,
