@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -224,11 +225,6 @@ struct FclDetector::Model : RivalModel<FclDetector::Options> {
   virtual bool touches(const Probe& probe, Session& session) const = 0;
   virtual std::optional<Contact> nearest(const Vec3& center, double reach, Session& session) const = 0;
   virtual std::size_t hierarchy_bytes() const = 0;
-
-  /// The contact as FCL gave it: its point, and the distance that goes with it.
-  Contact contact_at(const Vec3& point, const Vec3& normal, double distance, std::size_t triangle) const {
-    return {point, normal, distance, ids[triangle]};
-  }
 };
 
 template <class Bounds>
@@ -248,12 +244,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
     const std::vector<Vec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
     const int begun = hierarchy.beginModel(static_cast<int>(mesh.size()), static_cast<int>(vertices.size()));
     const int added = hierarchy.addSubModel(vertices, triangles_of_fcl);
-    const int ended = hierarchy.endModel();
-    for (const int status : {begun, added, ended}) {
-      if (status != fcl::BVH_OK)
-        throw MeshError("FCL refuses the mesh with status " + std::to_string(status));
-    }
-    hierarchy.computeLocalAABB();
+    finish("mesh", {begun, added, hierarchy.endModel()});
   }
 
   void replace_vertices(const TriangleMesh& mesh) override {
@@ -262,11 +253,12 @@ struct FclDetector::ModelOf : FclDetector::Model {
     const int replaced = hierarchy.replaceSubModel(vertices);
     // From the leaves up FCL adds volumes, and the sums of all but boxes do not hold what their parts hold.
     const bool from_leaves = options.bv == Volume::aabb;
-    const int ended = hierarchy.endReplaceModel(true, from_leaves);
-    for (const int status : {begun, replaced, ended}) {
+    finish("vertices", {begun, replaced, hierarchy.endReplaceModel(true, from_leaves)});
+  }
+  void finish(const std::string& given, std::initializer_list<int> statuses) {
+    for (const int status : statuses)
       if (status != fcl::BVH_OK)
-        throw MeshError("FCL refuses the vertices with status " + std::to_string(status));
-    }
+        throw MeshError("FCL refuses the " + given + " with status " + std::to_string(status));
     hierarchy.computeLocalAABB();
   }
 
@@ -347,7 +339,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
     session.last = deepest ? static_cast<std::uint32_t>(deepest->b1) : no_triangle;
     if (!deepest) return std::nullopt;
     const double distance = std::max(0.0, reach + deepest->penetration_depth);
-    return contact_at(deepest->pos, deepest->normal, distance, static_cast<std::size_t>(deepest->b1));
+    return Contact{deepest->pos, deepest->normal, distance, ids[static_cast<std::size_t>(deepest->b1)]};
   }
 
   /// The ball need not hold more than the last triangle's distance.
@@ -394,8 +386,8 @@ struct FclDetector::ModelOf : FclDetector::Model {
     const Vec3 offset = center - result.nearest_points[0];
     const double length = offset.norm();
     const Vec3 normal = length > 0 ? Vec3(offset / length) : face_normal(static_cast<int>(result.b1));
-    return contact_at(result.nearest_points[0], normal, result.min_distance,
-                      static_cast<std::size_t>(result.b1));
+    return Contact{result.nearest_points[0], normal, result.min_distance,
+                   ids[static_cast<std::size_t>(result.b1)]};
   }
 
   std::optional<Contact> exact_nearest(const Vec3& center, double reach, Session& session) const {
