@@ -16,7 +16,7 @@
 #include "bench/contestants/plugins/plugin_detector.h"
 #include "bench/contestants/roster.h"
 #include "bench/support/system/denormals.h"
-#include "core/c/contestant.h"
+#include "core/contestant.h"
 
 namespace touchmark::bench::contestants {
 namespace {

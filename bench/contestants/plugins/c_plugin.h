@@ -1,11 +1,11 @@
-/// A contestant from a shared object that keeps to core/c/contestant.h. Loading runs the author's code, so
+/// A contestant from a shared object that keeps to core/contestant.h. Loading runs the author's code, so
 /// only worker processes load: the program learns of it by workers/plugin_description.h.
 #pragma once
 
 #include <string>
 
 #include "bench/contestants/contestant_info.h"
-#include "core/c/contestant.h"
+#include "core/contestant.h"
 
 namespace touchmark::bench::contestants {
 

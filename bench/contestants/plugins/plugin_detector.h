@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/workload/answer.h"
-#include "core/c/contestant.h"
+#include "core/contestant.h"
 #include "core/detector.h"
 #include "core/mesh_update.h"
 

@@ -17,7 +17,7 @@
 #include "bench/contestants/build_notes.h"
 #include "bench/contestants/plugins/c_plugin.h"
 #include "bench/contestants/plugins/python_process.h"
-#include "core/c/contestant.h"
+#include "core/contestant.h"
 
 namespace touchmark::bench::contestants {
 namespace {

@@ -10,7 +10,7 @@
 #include <xmmintrin.h>
 #endif
 
-#include "core/c/contestant.h"
+#include "core/contestant.h"
 
 static int is(const char* what) {
   const char* const wanted = getenv("HOSTILE_PLUGIN");

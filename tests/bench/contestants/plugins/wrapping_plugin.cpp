@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "core/c/contestant.h"
+#include "core/contestant.h"
 #include "core/grid_group/grid_group.h"
 
 namespace {
