@@ -24,6 +24,7 @@ inline void set_options(const std::vector<named::Option>& options, const OptionV
           fmt::format("{}=\"{}\" is {}", option.key, values.text(option.key), option.refusal()));
 }
 
+/// Returns the detector's options with these values.
 template <class Form>
 Form form_of(const TriangleMesh& mesh, const OptionValues& values) {
   Form form;
@@ -41,7 +42,8 @@ auto published_options_of(const TriangleMesh& mesh, const OptionValues& values) 
   return form_of<Form>(mesh, values).published_options();
 }
 
-/// The detector's options, and those that the program measures with: each goes behind the key beside it.
+/// Returns the detector's options and those that the program measures with. Each of the latter follows the
+/// option whose key stands beside it.
 template <class Form>
 std::vector<OptionInfo> options_with(const std::vector<std::pair<std::string, OptionInfo>>& of_the_program) {
   Form form;

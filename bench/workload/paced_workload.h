@@ -12,7 +12,8 @@
 
 namespace touchmark::bench::workload {
 
-/// The ticks of a loop. A generated trajectory has no more steps than `count`.
+/// The ticks of a loop. A generated trajectory has a step for each, up to the default of `count`, unless more
+/// steps are selected.
 struct Ticks {
   double rate_hz = 1000;
   std::uint64_t count = 20'000;

@@ -13,7 +13,7 @@
 
 namespace touchmark::named {
 
-/// The options of `grid-group`, and of which class.
+/// What the options of `grid-group` choose: one of two classes, and its options.
 struct GridGroupForm {
   bool is_published = false;
   GridGroup::Options fast;
@@ -24,18 +24,19 @@ struct GridGroupForm {
   PublishedGridGroup::Options published_options() const;
 };
 
-/// The options of `sphere-cluster`, and of which class.
+/// What the options of `sphere-cluster` choose: one of two classes, and its options.
 struct SphereClusterForm {
   bool scans = false;
   SphereCluster::Options fast;
   PublishedSphereCluster::Options published;  ///< Its clustering distance is that of `fast`.
 
   bool is_published() const noexcept { return scans || !published.precise; }
-  /// Throws as GridGroupForm's.
+  /// Throws what GridGroupForm::published_options does.
   PublishedSphereCluster::Options published_options() const;
 };
 
-// What may be set, in the order in which it is listed. `side` is of every detector, see Signed.
+// Each returns the options in the order of `touchmark list`. They set members of the argument, which must
+// outlive them. Every detector also takes `side`, see Signed.
 std::vector<Option> options_of(BruteForce::Options& options);
 std::vector<Option> options_of(AabbTree::Options& options);
 std::vector<Option> options_of(GridGroupForm& form);

@@ -32,7 +32,7 @@ struct Option : OptionInfo {
   /// Sets the member. Returns false, and sets nothing, if the text is none that the option may have.
   std::function<bool(const std::string& text, const TriangleMesh& mesh)> set;
 
-  /// Says what such a text is not.
+  /// Returns the end of an error about a text that `set` refused, as "not a number of 0 or more".
   std::string refusal() const;
   /// Returns the option with the code that sets it: "MEMBER = {}", or "MEMBER = TYPE::{}" for an enumeration.
   Option in_code(const std::string& member, const std::string& type = "") &&;
