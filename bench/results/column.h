@@ -95,12 +95,14 @@ std::string written(const Write& write, const Value& value, Members... members) 
   }
 }
 
-/// A column's text: names of enumerations, and numbers so that they read back the same.
+/// A column's text: names of enumerations, 1 for true, and numbers so that they read back the same.
 template <auto... Members, class Row>
 std::string text(const Row& row) {
-  const auto write = [](const auto& value) {
-    if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>)
+  const auto write = []<class Value>(const Value& value) {
+    if constexpr (std::is_enum_v<Value>)
       return std::string(name_of(value));
+    else if constexpr (std::is_same_v<Value, bool>)
+      return std::string(value ? "1" : "0");
     else
       return fmt::format("{}", value);
   };

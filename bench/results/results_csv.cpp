@@ -14,6 +14,7 @@ namespace {
 
 using R = measurement::ResultRow;
 using C = measurement::ColdSummary;
+using D = measurement::DeadlineMisses;
 using N = workers::CacheLines;
 using E = oracle::ErrorCounts;
 using L = measurement::LatencySummary;
@@ -29,18 +30,12 @@ std::string hex(Row row) {
 
 template <auto Latency>
 std::string p999_in(Row row) {
-  const std::optional<double> ns = measurement::p999_of(row, row.*Latency);
-  return ns ? fmt::format("{:.6g}", *ns) : "";
+  return rounded<6>(measurement::p999_of(row, row.*Latency));
 }
 
-template <std::size_t Deadline>
-std::string misses_of(Row row) {
-  return row.latency ? fmt::format("{}", row.latency->deadlines[Deadline].misses) : "";
-}
-
-template <std::size_t Deadline>
-std::string max_run_of(Row row) {
-  return row.latency ? fmt::format("{}", row.latency->deadlines[Deadline].max_run) : "";
+template <std::size_t Deadline, auto Count>
+std::string deadline(Row row) {
+  return row.latency ? text<Count>(row.latency->deadlines[Deadline]) : "";
 }
 
 template <auto Member>
@@ -54,21 +49,14 @@ std::string update_rate(Row row) {
   return row.throughput ? fmt::format("{:.6g}", 1e9 / row.throughput->ns_per_query) : "";
 }
 std::string clock_cost(Row row) { return row.latency ? fmt::format("{:.6g}", row.clock_cost_ns) : ""; }
-std::string decides_exactly(Row row) {
-  return row.accuracy ? fmt::format("{:d}", row.accuracy->decides_exactly) : "";
-}
 
-template <auto Part>
-std::string cold_p99(Row row) {
-  return row.*Part && (row.*Part)->samples >= measurement::samples_for_p99
-             ? fmt::format("{:.6g}", (row.*Part)->p99)
-             : "";
+template <auto Part, auto Percentile, std::size_t Needed>
+std::string cold_tail(Row row) {
+  return row.*Part && (row.*Part)->samples >= Needed ? rounded<6, Part, Percentile>(row) : "";
 }
-std::string cold_l2_p999(Row row) {
-  return row.cold_l2 && row.cold_l2->samples >= measurement::steps_for_p999
-             ? fmt::format("{:.6g}", row.cold_l2->p999)
-             : "";
-}
+constexpr auto p99_of_l2 = cold_tail<&R::cold_l2, &C::p99, measurement::samples_for_p99>;
+constexpr auto p999_of_l2 = cold_tail<&R::cold_l2, &C::p999, measurement::steps_for_p999>;
+constexpr auto p99_of_all = cold_tail<&R::cold, &C::p99, measurement::samples_for_p99>;
 
 constexpr Kind angle{[](std::string_view text) {
                        constexpr double rounding = 1e-9;  // of the conversion from radians
@@ -159,8 +147,8 @@ constexpr auto columns = std::to_array<Column<R>>({
      "99.9 % of the steps took at most this; empty below 1,000 steps"},
     {"ns_max", rounded<6, &R::latency, &L::max>, timed, finite, "time of the slowest step"},
     {"update_rate_hz", update_rate, timed, positive, "queries a second: 1e9 / `ns_per_query`"},
-    {"deadline_misses_1khz", misses_of<0>, timed, whole_number, "steps that took more than 1 ms"},
-    {"longest_miss_run_1khz", max_run_of<0>, timed, whole_number, "longest run of such steps"},
+    {"deadline_misses_1khz", deadline<0, &D::misses>, timed, whole_number, "steps that took more than 1 ms"},
+    {"longest_miss_run_1khz", deadline<0, &D::max_run>, timed, whole_number, "longest run of such steps"},
     {"build_ms", rounded<6, &R::build_ms>, built, finite,
      "time from the mesh in memory to a detector that can answer"},
     {"first_answer_ms", rounded<6, &R::first_answer_ms>, built, finite,
@@ -184,10 +172,12 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"ns_per_query_first_pass", rounded<6, &R::throughput, &T::ns_per_query_first_pass>, timed, positive,
      "time of a query with a fresh session, when other contestants have used the caches meanwhile; a "
      "detector with `build=lazy` is built anew just before, so that what its first queries make is in it"},
-    {"deadline_misses_4khz", misses_of<1>, timed, whole_number, "steps that took more than 0.25 ms"},
-    {"longest_miss_run_4khz", max_run_of<1>, timed, whole_number, "longest run of such steps"},
-    {"deadline_misses_10khz", misses_of<2>, timed, whole_number, "steps that took more than 0.1 ms"},
-    {"longest_miss_run_10khz", max_run_of<2>, timed, whole_number, "longest run of such steps"},
+    {"deadline_misses_4khz", deadline<1, &D::misses>, timed, whole_number,
+     "steps that took more than 0.25 ms"},
+    {"longest_miss_run_4khz", deadline<1, &D::max_run>, timed, whole_number, "longest run of such steps"},
+    {"deadline_misses_10khz", deadline<2, &D::misses>, timed, whole_number,
+     "steps that took more than 0.1 ms"},
+    {"longest_miss_run_10khz", deadline<2, &D::max_run>, timed, whole_number, "longest run of such steps"},
     {"clock_cost_ns", clock_cost, timed, finite, "cost of reading the clock: a part of every clocked step"},
     {"max_distance_error_of_diagonal", text<&R::counts, &E::max_distance_error_of_diagonal>, judged, length,
      "`max_distance_error` over the diagonal of the mesh's box"},
@@ -214,7 +204,7 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"exact_decisions", text<&R::work, &W::total, &Work::exact_decisions>, optional, whole_number,
      "how often, over all steps, doubles of one word and of two left the answer open and whole numbers "
      "decided"},
-    {"decides_exactly", decides_exactly, judged, bit,
+    {"decides_exactly", text<&R::accuracy, &Accuracy::decides_exactly>, judged, bit,
      "1: contact is decided for the true distance of the stored doubles, closed, without any tolerance"},
     {"stored_missed", text<&R::rounded_mesh_counts, &E::missed>, optional, whole_number,
      "contacts missed by the scene as the contestant stores it, in single precision: what is left of them "
@@ -263,14 +253,14 @@ constexpr auto columns = std::to_array<Column<R>>({
      "with `--cold`: half of the queries took at most this after as much as twice the second-level cache was "
      "walked over; runs of five steps, those before a run answered unclocked first, the clock's own cost "
      "and misses included"},
-    {"cold_l2_ns_p99", cold_p99<&R::cold_l2>, optional, positive,
+    {"cold_l2_ns_p99", p99_of_l2, optional, positive,
      "99 % of these took at most this; empty below 100 samples"},
-    {"cold_l2_ns_p999", cold_l2_p999, optional, positive,
+    {"cold_l2_ns_p999", p999_of_l2, optional, positive,
      "99.9 % of these took at most this; empty below 1,000 samples"},
     {"cold_ns_p50", rounded<6, &R::cold, &C::p50>, optional, positive,
      "with `--cold`: half of the queries took at most this after as much as twice the last-level cache was "
      "walked over"},
-    {"cold_ns_p99", cold_p99<&R::cold>, optional, positive,
+    {"cold_ns_p99", p99_of_all, optional, positive,
      "99 % of these took at most this; empty below 100 samples"},
     {"cold_ns_max", rounded<6, &R::cold, &C::max>, optional, positive, "time of the slowest of these"},
     {"cold_l2_samples", text<&R::cold_l2, &C::samples>, optional, kinds::positive_count,

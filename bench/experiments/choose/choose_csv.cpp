@@ -14,69 +14,60 @@ using Line = const ChooseLine&;
 namespace kinds = results::kinds;
 using enum results::Presence;
 
-template <class Number>
-std::string count(Number value) {
-  return fmt::format("{}", value);
-}
-std::string rounded(double value) { return fmt::format("{:.6g}", value); }
+using C = Candidate;
+using T = QueryTimes;
+using W = workload::Workload;
+using results::rounded, results::text;
 
-template <double QueryTimes::*time>
-std::string of_times(Line line) {
-  return line.candidate.times ? rounded((*line.candidate.times).*time) : "";
-}
+const Candidate& row(Line line) { return line.candidate; }
+const W& load(Line line) { return line.asked.workload; }
+const Limits& limits(Line line) { return line.asked.limits; }
+constexpr auto of_times = &C::times;
+
 template <double (*margin)(const QueryTimes&, const Limits&) noexcept>
 std::string of_margin(Line line) {
-  return line.candidate.times ? rounded(margin(*line.candidate.times, line.asked.limits)) : "";
+  const std::optional<T>& times = line.candidate.times;
+  return times ? rounded<6>(margin(*times, limits(line))) : "";
 }
 
 // The order is the contract.
 constexpr auto columns = std::to_array<results::Column<ChooseLine>>({
     {"schema", [](Line) { return std::to_string(choose_schema); }, always, kinds::one},
     {"run_id", nullptr, always},
-    {"detector", [](Line line) { return line.candidate.detector; }, always},
-    {"options", [](Line line) { return line.candidate.options; }, optional},
-    {"mesh", [](Line line) { return line.asked.workload.mesh_name; }, always},
-    {"triangles", [](Line line) { return count(line.asked.workload.mesh.size()); }, always,
-     kinds::whole_number},
-    {"query", [](Line line) { return std::string(workload::name_of(line.asked.query)); }, always,
-     kinds::query},
-    {"radius", [](Line line) { return count(line.asked.workload.radius); }, always, kinds::length},
-    {"reach",
-     [](Line line) { return count(line.asked.workload.reach.value_or(line.asked.workload.radius)); }, always,
+    {"detector", text<row, &C::detector>, always},
+    {"options", text<row, &C::options>, optional},
+    {"mesh", text<load, &W::mesh_name>, always},
+    {"triangles", text<load, &W::mesh, &TriangleMesh::size>, always, kinds::whole_number},
+    {"query", [](Line line) { return text(line.asked.query); }, always, kinds::query},
+    {"radius", text<load, &W::radius>, always, kinds::length},
+    {"reach", [](Line line) { return text(load(line).reach.value_or(load(line).radius)); }, always,
      kinds::length},
-    {"rate_hz", [](Line line) { return count(line.asked.limits.rate_hz); }, always, kinds::positive},
-    {"share", [](Line line) { return count(line.asked.limits.share); }, always, kinds::share},
+    {"rate_hz", text<limits, &Limits::rate_hz>, always, kinds::positive},
+    {"share", text<limits, &Limits::share>, always, kinds::share},
     {"max_bytes",
-     [](Line line) {
-       return line.asked.limits.max_bytes ? fmt::format("{:.0f}", *line.asked.limits.max_bytes) : "";
-     },
+     [](Line line) { return limits(line).max_bytes ? fmt::format("{:.0f}", *limits(line).max_bytes) : ""; },
      optional, kinds::whole_number},
-    {"motions", [](Line line) { return count(line.asked.workload.trajectories.size()); }, always,
+    {"motions", [](Line line) { return text(load(line).trajectories.size()); }, always,
      kinds::positive_count},
     {"guarantee", [](Line line) { return std::string(line.candidate.claims_exactness ? "exact" : ""); },
      optional, kinds::guarantee},
-    {"judged", [](Line line) { return count(line.candidate.judged); }, always, kinds::whole_number},
-    {"wrong_answers", [](Line line) { return count(line.candidate.wrong); }, always, kinds::whole_number},
-    {"status", [](Line line) { return line.candidate.status; }, always},
-    {"rank", [](Line line) { return line.rank > 0 ? count(line.rank) : ""; }, optional,
+    {"judged", text<row, &C::judged>, always, kinds::whole_number},
+    {"wrong_answers", text<row, &C::wrong>, always, kinds::whole_number},
+    {"status", text<row, &C::status>, always},
+    {"rank", [](Line line) { return line.rank > 0 ? text<&ChooseLine::rank>(line) : ""; }, optional,
      kinds::positive_count},
     {"why_not", [](Line line) { return why_not(line.candidate, line.asked.limits); }, optional},
     {"margin_usual", of_margin<margin_usual>, optional, kinds::positive},
     {"margin_worst", of_margin<margin_worst>, optional, kinds::positive},
-    {"warm_ns_p999", of_times<&QueryTimes::warm_p999>, optional, kinds::positive},
-    {"warm_ns_max", of_times<&QueryTimes::warm_max>, optional, kinds::positive},
-    {"cold_ns_p50", of_times<&QueryTimes::cold_p50>, optional, kinds::positive},
-    {"cold_ns_p99", of_times<&QueryTimes::cold_p99>, optional, kinds::positive},
-    {"cold_ns_max", of_times<&QueryTimes::cold_max>, optional, kinds::positive},
-    {"cold_samples",
-     [](Line line) { return line.candidate.times ? count(line.candidate.times->cold_samples) : ""; },
-     optional, kinds::positive_count},
-    {"slowest_motion",
-     [](Line line) { return line.candidate.times ? line.candidate.times->motion : std::string(); }, optional},
-    {"build_ms", [](Line line) { return line.candidate.build_ms ? rounded(*line.candidate.build_ms) : ""; },
-     optional, kinds::finite},
-    {"bytes", [](Line line) { return line.candidate.bytes ? count(*line.candidate.bytes) : ""; }, optional,
-     kinds::whole_number},
+    {"warm_ns_p999", rounded<6, row, of_times, &T::warm_p999>, optional, kinds::positive},
+    {"warm_ns_max", rounded<6, row, of_times, &T::warm_max>, optional, kinds::positive},
+    {"cold_ns_p50", rounded<6, row, of_times, &T::cold_p50>, optional, kinds::positive},
+    {"cold_ns_p99", rounded<6, row, of_times, &T::cold_p99>, optional, kinds::positive},
+    {"cold_ns_max", rounded<6, row, of_times, &T::cold_max>, optional, kinds::positive},
+    {"cold_samples", text<row, of_times, &T::cold_samples>, optional, kinds::positive_count},
+    {"slowest_motion", text<row, of_times, &T::motion>, optional},
+    {"build_ms", rounded<6, row, &C::build_ms>, optional, kinds::finite},
+    {"bytes", text<row, &C::bytes>, optional, kinds::whole_number},
 });
 
 }  // namespace

@@ -74,7 +74,7 @@ constexpr auto columns = std::to_array<results::Column<SuiteLine>>({
     {"bytes", text<row, &Row::bytes>, optional, kinds::whole_number, "size of ours by its own count"},
     {"exact_rival_bytes", text<row, mean, exact, &Rival::bytes>, optional, kinds::whole_number,
      "size of `exact_rival`, likewise"},
-    {"conclusive", [](A line) { return std::string(line.row.conclusive ? "1" : "0"); }, always, kinds::bit,
+    {"conclusive", text<row, &Row::conclusive>, always, kinds::bit,
      "0: the same contestant timed in two processes differed by more than 15 %, so that near ratios mean "
      "nothing"},
     {"seed", text<&SuiteLine::seed>, always, kinds::whole_number, "of the plan and of the trajectories"},
