@@ -3,6 +3,7 @@
 
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +23,12 @@ CLI::Option* add_value(CLI::App& command, const char* name, Value& value, const 
 inline CLI::Option* add_list(CLI::App& command, const char* name, std::vector<std::string>& values,
                              const char* type, const std::string& what) {
   return command.add_option(name, values, what)->type_name(type)->expected(1)->take_all();
+}
+
+/// Returns the values that were given, or those otherwise.
+inline std::vector<std::string> or_else(const std::vector<std::string>& given,
+                                        std::vector<std::string> otherwise) {
+  return given.empty() ? std::move(otherwise) : given;
 }
 
 }  // namespace touchmark::bench::cli

@@ -64,4 +64,11 @@ CheckedSelectors check(const Selectors& selectors, const Roster& roster, Variety
   return selection;
 }
 
+CheckedSelectors check(const Selectors& selectors, const Roster& roster,
+                       std::vector<std::string> Forms::*otherwise) {
+  CheckedSelectors selection = check(selectors, roster);
+  if (selectors.detectors.empty()) selection.contestants = roster.forms(otherwise);
+  return selection;
+}
+
 }  // namespace touchmark::bench::contestants

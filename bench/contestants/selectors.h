@@ -56,5 +56,8 @@ struct CheckedSelectors : workload::Selection {
 
 /// Throws std::invalid_argument naming the option and the value.
 CheckedSelectors check(const Selectors& selectors, const Roster& roster, Variety variety = Variety::one);
+/// Likewise, of one mesh and query; without --detector these forms are asked.
+CheckedSelectors check(const Selectors& selectors, const Roster& roster,
+                       std::vector<std::string> Forms::*otherwise);
 
 }  // namespace touchmark::bench::contestants

@@ -18,22 +18,17 @@
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
+#include "bench/cli/run_frame.h"
+#include "bench/cli/selected_workload.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/step_outputs.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
-#include "bench/meshes/meshes.h"
 #include "bench/results/report_table.h"
 #include "bench/results/results_csv.h"
-#include "bench/results/results_folder.h"
-#include "bench/results/run_json.h"
 #include "bench/results/steps_file.h"
 #include "bench/results/verification_report.h"
-#include "bench/scenes/scene_source.h"
 #include "bench/support/files/standard_output.h"
-#include "bench/support/progress.h"
-#include "bench/support/system/denormals.h"
-#include "bench/support/system/interrupt.h"
 #include "bench/workers/timing/cache_lines.h"
 #include "bench/workload/query_name.h"
 
@@ -77,10 +72,6 @@ measurement::Effort effort_for(const BenchOptions& options, const BenchmarkFlags
   return effort;
 }
 
-std::string mesh_of(const contestants::Selectors& selectors) {
-  return selectors.meshes.empty() ? meshes::default_mesh() : selectors.meshes.front();
-}
-
 /// The whole run, from the checked command line to the last row.
 class BenchRun {
  public:
@@ -96,7 +87,7 @@ class BenchRun {
   void save_so_far();
   void save(bool finished) const;
   /// Writes every file that the run was asked for.
-  void leave(bool finished);
+  void leave();
   bool wanted(const std::string& trajectory, const std::string& contestant) const {
     return flags_.wanted(contestant + "/" + trajectory);
   }
@@ -109,68 +100,54 @@ class BenchRun {
     }
     return rows;
   }
-  const std::vector<std::string>& named() const {
-    return selectors_.trajectories.empty() ? default_trajectories : selectors_.trajectories;
-  }
 
   BenchmarkFlags flags_;
   contestants::Selectors selectors_;
+  std::vector<std::string> trajectories_;
   contestants::CheckedSelectors selection_;
-  std::optional<results::ResultsFolder> folder_;
+  workers::WorkerOptions workers_;
+  RunFrame frame_;
   BenchReports reports_;
-  std::optional<StepOutputs> step_outputs_;
-  results::RunDescription description_;
+  StepOutputs step_outputs_;
   workload::Workload workload_;
   std::optional<measurement::Comparison> comparison_;
-  support::ProgressLine progress_;
   support::StandardOutput out_;
   bool shows_work_;
   bool wide_;
   std::vector<measurement::ResultRow> rows_;
 };
 
-workload::Workload workload_for(const BenchOptions& options, const contestants::CheckedSelectors& selection) {
-  const contestants::Selectors& selectors = options.selectors;
-  const std::vector<std::string>& named =
-      selectors.trajectories.empty() ? default_trajectories : selectors.trajectories;
-  const std::size_t steps = options.quick ? 5000 : 20000;
-  if (!selectors.scene.empty()) {
-    return workload::make_scene_workload(
-        scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection, named,
-        steps);
-  }
-  const std::string mesh = mesh_of(selectors);
-  return workload::make_workload(results::without_directories(mesh),
-                                 meshes::load_mesh(mesh, selectors.normalize), selection, named, steps);
+contestants::CheckedSelectors checked(const BenchOptions& options, const contestants::Roster& roster) {
+  contestants::CheckedSelectors selection = contestants::check(options.selectors, roster);
+  if (options.cache_lines) workers::require_line_counting();
+  return selection;
 }
 
 BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags)
     : flags_(flags),
       selectors_(options.selectors),
-      selection_(contestants::check(options.selectors, context.roster)),
+      trajectories_(or_else(selectors_.trajectories, default_trajectories)),
+      selection_(checked(options, context.roster)),
+      workers_(worker_options(options.workers)),
+      frame_(context, flags.list_tests ? "" : options.out),
       reports_(flags, options.reports),
-      description_(results::begun_run(context.argc, context.argv)),
-      workload_(workload_for(options, selection_)),
+      step_outputs_(frame_.folder ? &*frame_.folder : nullptr, flags.list_tests ? "" : options.steps_out),
+      workload_(workload_of(selectors_, mesh_of(selectors_), selection_, trajectories_,
+                            options.quick ? 5000 : 20000)),
       shows_work_(options.work),
       wide_(options.wide) {
-  if (options.cache_lines) workers::require_line_counting();
-  if (!options.out.empty() && !flags.list_tests) folder_.emplace(options.out);
-  if (!flags.list_tests) step_outputs_.emplace(folder_ ? &*folder_ : nullptr, options.steps_out);
-  description_.flushed_to_zero = support::restore_denormals();
-  description_.query = selection_.queries.front();
-  description_.seed = selection_.seed;
-  description_.effort = effort_for(options, flags, wanted_rows());
-  description_.core = results::core_for_workers();
-  workers::WorkerOptions workers = worker_options(options.workers);
-  workers.flags = flags.forwarded;
-  workers.core = description_.core;
-  comparison_.emplace(context.roster, workload_, selection_.contestants, workers, description_.effort,
+  frame_.description.query = selection_.queries.front();
+  frame_.description.seed = selection_.seed;
+  frame_.description.effort = effort_for(options, flags, wanted_rows());
+  frame_.description.core = workers_.core = results::core_for_workers();
+  workers_.flags = flags.forwarded;
+  comparison_.emplace(context.roster, workload_, selection_.contestants, workers_, frame_.description.effort,
                       selection_.seed);
   comparison_->set_filter([this](const std::string& trajectory, const std::string& contestant) {
     return wanted(trajectory, contestant);
   });
   comparison_->set_progress([this](const std::string& trajectory, const std::string& contestant) {
-    progress_.show(fmt::format("{}: {}", trajectory, contestant));
+    frame_.progress.show(fmt::format("{}: {}", trajectory, contestant));
   });
 }
 
@@ -183,20 +160,19 @@ void BenchRun::list_cases() {
 }
 
 void BenchRun::save(bool finished) const {
-  if (!folder_) return;
-  results::RunDescription description = description_;
+  if (!frame_.folder) return;
+  results::RunDescription description = frame_.description;
   description.finished = finished;
   description.steadiness = comparison_->steadiness();
   description.left_out = comparison_->left_out();
-  folder_->write(results::results_csv(description.run_id, rows_),
-                 results::run_json(description, workload_, comparison_->contestants()));
+  frame_.folder->write(results::results_csv(description.run_id, rows_),
+                       results::run_json(description, workload_, comparison_->contestants()));
 }
 
-void BenchRun::leave(bool finished) {
-  save(finished);
-  step_outputs_->write(description_.run_id, workload_, *comparison_, rows_);
-  description_.finished = finished;
-  reports_.write(description_, rows_);
+void BenchRun::leave() {
+  save(frame_.description.finished);
+  step_outputs_.write(frame_.description.run_id, workload_, *comparison_, rows_);
+  reports_.write(frame_.description, rows_);
 }
 
 /// What has been timed in part counts as well, should it end here.
@@ -209,7 +185,7 @@ void BenchRun::save_so_far() {
 
 void BenchRun::run_trajectories() {
   for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
-    comparison_->begin(trace, description_.query);
+    comparison_->begin(trace, frame_.description.query);
     save_so_far();
   }
   for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) end_trajectory(trace);
@@ -219,10 +195,10 @@ void BenchRun::end_trajectory(std::size_t trace) {
   std::vector<measurement::ResultRow> rows = comparison_->end();
   if (rows.empty()) return;
   for (measurement::ResultRow& row : rows)
-    row.repeat = repeat_command(selectors_, mesh_of(selectors_), named(), workload_, row);
+    row.repeat = repeat_command(selectors_, mesh_of(selectors_), trajectories_, workload_, row);
   rows_.insert(rows_.end(), rows.begin(), rows.end());
   save_so_far();
-  progress_.clear();
+  frame_.progress.clear();
   const std::string title =
       fmt::format("{} ({})", workload_.trajectories[trace], workload::trace_text(workload_, trace));
   const std::string verdict = results::verdict(rows, comparison_->steadiness().back());
@@ -238,18 +214,11 @@ void BenchRun::end_trajectory(std::size_t trace) {
 }
 
 int BenchRun::run() {
-  support::watch_for_interrupts();
-  out_.write(workload::question_text(workload_, description_.query) + '\n');
-  try {
-    run_trajectories();
-  } catch (const support::Interrupted&) {
-    progress_.clear();
-    std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
-    leave(false);
-    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
-    return support::exit_interrupted;
-  }
-  leave(true);
+  out_.write(workload::question_text(workload_, frame_.description.query) + '\n');
+  const bool finished = frame_.finishes([this] { run_trajectories(); });
+  if (!finished) std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
+  leave();
+  if (!finished) return interrupted(rows_.size());
   std::vector<measurement::ResultRow> broken;  // what others err by is in the table
   std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), results::claim_is_broken);
   const std::string failures = results::list_of_failures(broken, faulty_rows_shown);

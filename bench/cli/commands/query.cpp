@@ -13,15 +13,15 @@
 
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
+#include "bench/cli/run_frame.h"
+#include "bench/cli/selected_workload.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/single_step.h"
 #include "bench/cli/step_visits.h"
 #include "bench/cli/worker_options.h"
 #include "bench/contestants/entry.h"
 #include "bench/contestants/roster.h"
-#include "bench/meshes/meshes.h"
 #include "bench/results/answer_rows.h"
-#include "bench/scenes/scene_source.h"
 #include "bench/support/failures.h"
 #include "bench/support/files/atomic_file.h"
 #include "bench/support/files/standard_output.h"
@@ -79,18 +79,6 @@ void check_there_is_one(const contestants::Selectors& selectors) {
   }
 }
 
-workload::Workload workload_for(const contestants::Selectors& selectors,
-                                const contestants::CheckedSelectors& selection) {
-  const std::vector<std::string> slide{"slide"};
-  const std::vector<std::string>& named = selectors.trajectories.empty() ? slide : selectors.trajectories;
-  if (!selectors.scene.empty()) {
-    return workload::make_scene_workload(
-        scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection, named, 0);
-  }
-  const std::string mesh = selectors.meshes.empty() ? meshes::default_mesh() : selectors.meshes.front();
-  return workload::make_workload(mesh, meshes::load_mesh(mesh, selectors.normalize), selection, named, 0);
-}
-
 /// A whole trajectory takes a slow contestant its time; there is Ctrl-C, and --timeout where nobody watches.
 workers::WorkerOptions patient(const WorkerSelectors& selectors) {
   workers::WorkerOptions options = worker_options(selectors);
@@ -125,7 +113,8 @@ void run_query(const QueryOptions& options, const contestants::Roster& roster) {
   const workers::WorkerOptions workers = patient(options.workers);
   const workload::Query query = selection.queries.front();
   const contestants::ContestantSpec& spec = selection.contestants.front();
-  const workload::Workload workload = workload_for(options.selectors, selection);
+  const workload::Workload workload = workload_of(options.selectors, mesh_of(options.selectors), selection,
+                                                  or_else(options.selectors.trajectories, {"slide"}), 0);
   const std::vector<workload::Step>& trace = workload.traces.front();
   if (!options.visits.empty()) print_visits(workload, query, spec.text(), options.visits);
   RowSink sink(options.csv);  // before the work: a name that cannot be written is known at once
@@ -189,8 +178,7 @@ void add_query(CLI::App& program, ProgramContext& context) {
     try {
       run_query(*options, context.roster);
     } catch (const support::Interrupted&) {
-      fmt::print(stderr, "touchmark: interrupted; no rows are kept\n");
-      context.status = support::exit_interrupted;
+      context.status = interrupted("no rows are kept");
     }
   });
 }

@@ -13,6 +13,8 @@
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
 #include "bench/cli/report_files.h"
+#include "bench/cli/run_frame.h"
+#include "bench/cli/selected_workload.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/contestants/roster.h"
@@ -20,13 +22,8 @@
 #include "bench/meshes/meshes.h"
 #include "bench/results/junit.h"
 #include "bench/results/results_csv.h"
-#include "bench/results/results_folder.h"
-#include "bench/results/run_json.h"
 #include "bench/results/verification_report.h"
-#include "bench/scenes/scene_source.h"
 #include "bench/support/files/standard_output.h"
-#include "bench/support/progress.h"
-#include "bench/support/system/denormals.h"
 #include "bench/support/system/interrupt.h"
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/query_name.h"
@@ -45,7 +42,9 @@ struct VerifyOptions {
   WorkerSelectors workers;
 };
 
+/// The scene, or the meshes.
 std::vector<std::string> meshes_for(const VerifyOptions& options) {
+  if (!options.selectors.scene.empty()) return {options.selectors.scene};
   if (!options.selectors.meshes.empty()) return options.selectors.meshes;
   std::vector<std::string> meshes;
   for (const meshes::NamedMesh& named : meshes::named_meshes()) {
@@ -67,56 +66,40 @@ std::vector<std::string> trajectories_for(const VerifyOptions& options) {
 
 class VerifyRun {
  public:
-  VerifyRun(const contestants::Roster& roster, const VerifyOptions& options)
-      : roster_(roster),
+  VerifyRun(const ProgramContext& context, const VerifyOptions& options)
+      : roster_(context.roster),
         options_(options),
-        selection_(contestants::check(options.selectors, roster, contestants::Variety::many)),
+        selection_(contestants::check(options.selectors, roster_, contestants::Variety::many)),
         workers_(worker_options(options.workers)),
+        frame_(context, options.out),
         junit_(options.reports.junit),
         markdown_(options.reports.markdown) {
     workers_.calibrate_clock = false;
-    if (!options.out.empty()) folder_.emplace(options.out);
   }
 
   int run();
 
  private:
   void verify_mesh(const std::string& mesh);
-  void verify_scene();
-  void verify_workload(const workload::Workload& workload, const std::string& mesh);
-  int report(bool finished);
+  int report();
 
   const contestants::Roster& roster_;
   VerifyOptions options_;
   contestants::CheckedSelectors selection_;
   workers::WorkerOptions workers_;
+  RunFrame frame_;
   ReportFile junit_, markdown_;
-  std::optional<results::ResultsFolder> folder_;
-  support::ProgressLine progress_;
   std::vector<measurement::ResultRow> rows_;
 };
 
 void VerifyRun::verify_mesh(const std::string& mesh) {
   const std::size_t steps = options_.selectors.meshes.empty() ? steps_on_each : steps_on_a_mesh;
-  const workload::Workload workload = workload::make_workload(
-      results::without_directories(mesh), meshes::load_mesh(mesh, options_.selectors.normalize), selection_,
-      trajectories_for(options_), steps);
-  verify_workload(workload, mesh);
-}
-
-void VerifyRun::verify_scene() {
-  const contestants::Selectors& selectors = options_.selectors;
-  verify_workload(workload::make_scene_workload(
-                      scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages),
-                      selection_, trajectories_for(options_), steps_on_each),
-                  selectors.scene);
-}
-
-void VerifyRun::verify_workload(const workload::Workload& workload, const std::string& mesh) {
+  const workload::Workload workload =
+      workload_of(options_.selectors, mesh, selection_, trajectories_for(options_), steps);
   measurement::Comparison comparison(roster_, workload, selection_.contestants, workers_,
                                      measurement::accuracy_effort, selection_.seed);
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
-    progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
+    frame_.progress.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
   });
   const std::size_t before = rows_.size();
   const auto say_how_to_repeat = [&] {
@@ -133,8 +116,8 @@ void VerifyRun::verify_workload(const workload::Workload& workload, const std::s
   say_how_to_repeat();
 }
 
-int VerifyRun::report(bool finished) {
-  progress_.clear();
+int VerifyRun::report() {
+  const bool finished = frame_.description.finished;
   const std::string failures = results::list_of_failures(rows_, failures_shown);
   const support::Table table = results::verification_table(rows_);
   const std::string judged = results::judged_answers(rows_);
@@ -144,27 +127,16 @@ int VerifyRun::report(bool finished) {
   if (markdown_.wanted())
     markdown_.write(fmt::format("## touchmark verify{}\n\n{}\n{}{}", finished ? "" : " (interrupted)",
                                 table.markdown(), judged, code_block(failures)));
-  if (folder_) folder_->write(results::results_csv(results::new_run_id(results::system_info()), rows_));
-  if (!finished) {
-    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
-    return support::exit_interrupted;
-  }
+  if (frame_.folder) frame_.folder->write(results::results_csv(frame_.description.run_id, rows_));
+  if (!finished) return interrupted(rows_.size());
   return results::status_of(rows_, std::any_of(rows_.begin(), rows_.end(), results::claim_is_broken));
 }
 
 int VerifyRun::run() {
-  support::watch_for_interrupts();
-  support::restore_denormals();
-  try {
-    if (!options_.selectors.scene.empty()) {
-      verify_scene();
-    } else {
-      for (const std::string& mesh : meshes_for(options_)) verify_mesh(mesh);
-    }
-  } catch (const support::Interrupted&) {
-    return report(false);
-  }
-  return report(true);
+  frame_.finishes([this] {
+    for (const std::string& mesh : meshes_for(options_)) verify_mesh(mesh);
+  });
+  return report();
 }
 
 }  // namespace
@@ -188,8 +160,7 @@ void add_verify(CLI::App& program, ProgramContext& context) {
       "another limit of the machine kept one from being judged; 4 if nothing was judged.\n"
       "Example: touchmark verify --mesh bunny --trajectory slide --detector grid-group --radius 0.5%\n"
       "         touchmark verify --scene heap:100:motion=all\n");
-  command->final_callback(
-      [options, &context] { context.status = VerifyRun(context.roster, *options).run(); });
+  command->final_callback([options, &context] { context.status = VerifyRun(context, *options).run(); });
 }
 
 }  // namespace touchmark::bench::cli

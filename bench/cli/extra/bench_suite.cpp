@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/cli/options.h"
+#include "bench/cli/run_frame.h"
 #include "bench/contestants/roster.h"
 #include "bench/experiments/suite/suite_csv.h"
 #include "bench/experiments/suite/suite_plan.h"
@@ -21,12 +23,8 @@
 #include "bench/meshes/meshes.h"
 #include "bench/results/report_table.h"
 #include "bench/results/results_csv.h"
-#include "bench/results/results_folder.h"
-#include "bench/results/run_json.h"
 #include "bench/support/files/standard_output.h"
 #include "bench/support/numbers.h"
-#include "bench/support/progress.h"
-#include "bench/support/system/denormals.h"
 #include "bench/support/system/interrupt.h"
 
 namespace touchmark::bench::cli {
@@ -69,8 +67,10 @@ Extent extent_of(const SuiteOptions& options) {
 
 contestants::CheckedSelectors checked(const contestants::Selectors& selectors,
                                       const contestants::Roster& roster) {
-  contestants::CheckedSelectors selection = contestants::check(selectors, roster);
-  if (selectors.detectors.empty()) selection.contestants = roster.forms(&contestants::Forms::suite);
+  contestants::CheckedSelectors selection = contestants::check(selectors, roster, &contestants::Forms::suite);
+  const auto is_ours = [&](const contestants::ContestantSpec& spec) { return roster.find(spec.name).ours; };
+  if (std::ranges::none_of(selection.contestants, is_ours))
+    throw std::invalid_argument("--suite: no --detector is one of ours");
   return selection;
 }
 
@@ -102,10 +102,8 @@ class SuiteRun {
   Extent extent_;
   contestants::CheckedSelectors selection_;
   suite::SuitePlan plan_;
-  std::optional<results::ResultsFolder> folder_;
-  results::RunDescription description_;
   workers::WorkerOptions workers_;
-  support::ProgressLine progress_;
+  RunFrame frame_;
   support::StandardOutput out_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::size_t meshes_done_ = 0, cells_done_ = 0;
@@ -119,22 +117,18 @@ SuiteRun::SuiteRun(const ProgramContext& context, const SuiteOptions& options)
       options_(options),
       extent_(extent_of(options)),
       selection_(checked(options.selectors, context.roster)),
-      plan_(suite::make_plan(options.selectors.meshes.empty() ? suite::suite_meshes(extent_.triangles)
-                                                              : options.selectors.meshes,
+      plan_(suite::make_plan(or_else(options.selectors.meshes, suite::suite_meshes(extent_.triangles)),
                              extent_.cells, selection_.seed, extent_.effort.cold_passes > 0)),
-      description_(results::begun_run(context.argc, context.argv)),
-      workers_(worker_options(options.workers)) {
-  if (ours().empty()) throw std::invalid_argument("--suite: no --detector is one of ours");
-  if (!options.out.empty()) folder_.emplace(options.out);
+      workers_(worker_options(options.workers)),
+      frame_(context, options.out) {
   if (options.workers.timeout.empty()) {
     workers_.build_timeout = build_timeout;
     workers_.request_timeout = request_timeout;
   }
   extent_.steps = selection_.steps.value_or(extent_.steps);
-  description_.flushed_to_zero = support::restore_denormals();
-  description_.seed = selection_.seed;
-  description_.effort = extent_.effort;
-  description_.core = workers_.core = results::core_for_workers();
+  frame_.description.seed = selection_.seed;
+  frame_.description.effort = extent_.effort;
+  frame_.description.core = workers_.core = results::core_for_workers();
 }
 
 std::vector<std::string> SuiteRun::ours() const {
@@ -153,17 +147,17 @@ std::string SuiteRun::time_left() const {
 
 /// Every mesh has its share of the time, and what one leaves over is for those after it.
 void SuiteRun::run_mesh(const suite::SuiteMesh& planned) {
-  progress_.show(fmt::format("{}: making the mesh and the trajectories{}", planned.mesh, time_left()));
+  frame_.progress.show(fmt::format("{}: making the mesh and the trajectories{}", planned.mesh, time_left()));
   const double left = extent_.minutes - minutes();
   const double until = minutes() + left / static_cast<double>(plan_.meshes.size() - meshes_done_);
   const suite::MeshWorkload made = suite::workload_of(
       planned, meshes::load_mesh(planned.mesh, options_.selectors.normalize), extent_.steps, selection_.seed);
-  progress_.show(fmt::format("{}: preparing the oracle{}", made.workload.mesh_name, time_left()));
+  frame_.progress.show(fmt::format("{}: preparing the oracle{}", made.workload.mesh_name, time_left()));
   measurement::Comparison comparison(roster_, made.workload, selection_.contestants, workers_,
-                                     description_.effort, selection_.seed);
+                                     frame_.description.effort, selection_.seed);
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
-    progress_.show(fmt::format("{} of {}, {}, {}: {}{}", meshes_done_ + 1, plan_.meshes.size(),
-                               made.workload.mesh_name, trajectory, contestant, time_left()));
+    frame_.progress.show(fmt::format("{} of {}, {}, {}: {}{}", meshes_done_ + 1, plan_.meshes.size(),
+                                     made.workload.mesh_name, trajectory, contestant, time_left()));
   });
   std::vector<suite::MeasuredCell> measured;
   for (const suite::SuiteCell& cell : planned.cells)
@@ -198,8 +192,8 @@ void SuiteRun::finish_mesh(const measurement::Comparison& comparison, const suit
         std::back_inserter(scored_));
     std::ranges::move(cell.rows, std::back_inserter(rows_));
   }
-  description_.steadiness = comparison.steadiness();
-  runs_.push_back(results::run_json(description_, made.workload, comparison.contestants()));
+  frame_.description.steadiness = comparison.steadiness();
+  runs_.push_back(results::run_json(frame_.description, made.workload, comparison.contestants()));
   save(meshes_done_ == plan_.meshes.size());
 }
 
@@ -235,33 +229,28 @@ std::string SuiteRun::run_json(bool finished) const {
 }
 
 void SuiteRun::save(bool finished) const {
-  if (!folder_ || runs_.empty()) return;
-  folder_->write(results::results_csv(description_.run_id, rows_), run_json(finished));
-  folder_->write_file("suite.csv", suite::suite_csv(description_.run_id, description_.seed, scored_));
+  if (!frame_.folder || runs_.empty()) return;
+  frame_.folder->write(results::results_csv(frame_.description.run_id, rows_), run_json(finished));
+  frame_.folder->write_file("suite.csv",
+                            suite::suite_csv(frame_.description.run_id, frame_.description.seed, scored_));
 }
 
 int SuiteRun::run() {
-  support::watch_for_interrupts();
   out_.write(fmt::format("suite: {} scenes, {} cells of {}, at most about {:g} minutes\n",
                          plan_.meshes.size(), plan_.cells(), plan_.meshes.size() * suite::every_cell().size(),
                          extent_.minutes));
   out_.finish();
-  bool interrupted = false;
-  try {
+  const bool finished = frame_.finishes([this] {
     for (const suite::SuiteMesh& planned : plan_.meshes) run_mesh(planned);
-  } catch (const support::Interrupted&) {
-    interrupted = true;
-  }
-  progress_.clear();
-  if (interrupted) {
+  });
+  if (!finished) {
     for (std::size_t i = runs_.size(); i < plan_.meshes.size(); ++i)
       add_unmeasured(plan_.meshes[i], results::without_directories(plan_.meshes[i].mesh));
     save(false);
-    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
   }
   out_.write('\n' + suite::summary_table(scored_) + '\n' + suite::list_of_losses(scored_, losses_shown));
   out_.finish();
-  if (interrupted) return support::exit_interrupted;
+  if (!finished) return interrupted(rows_.size());
   const auto where = [](const measurement::ResultRow& row) { return row.mesh + ", " + row.trajectory; };
   return results::print_faults(rows_, where) ? support::exit_check_failed : support::exit_done;
 }

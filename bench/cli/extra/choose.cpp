@@ -16,6 +16,8 @@
 
 #include "bench/cli/extra/choose_options.h"
 #include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/run_frame.h"
+#include "bench/cli/selected_workload.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/choose/candidate.h"
 #include "bench/experiments/choose/choose_code.h"
@@ -25,11 +27,7 @@
 #include "bench/measurement/comparison.h"
 #include "bench/meshes/meshes.h"
 #include "bench/results/results_csv.h"
-#include "bench/results/results_folder.h"
-#include "bench/results/run_json.h"
-#include "bench/scenes/scene_source.h"
 #include "bench/support/files/standard_output.h"
-#include "bench/support/system/denormals.h"
 #include "bench/support/system/interrupt.h"
 #include "bench/support/timed_progress.h"
 
@@ -67,7 +65,7 @@ class ChooseCommand {
   int run();
 
  private:
-  choose::Asked asked() const { return {workload_, description_.query, limits_}; }
+  choose::Asked asked() const { return {workload_, frame_.description.query, limits_}; }
   const contestants::ContestantSpec& spec_of(const choose::Candidate& candidate) const;
   std::string code(const std::vector<std::size_t>& ranked) const;
   double minutes() const { return std::chrono::duration<double, std::ratio<60>>(deadline_ - start_).count(); }
@@ -87,8 +85,8 @@ class ChooseCommand {
   bool time_is_up_ = false, interrupted_ = false;
   choose::Limits limits_;
   contestants::CheckedSelectors selection_;
-  std::optional<results::ResultsFolder> folder_;
-  results::RunDescription description_;
+  workers::WorkerOptions workers_;
+  RunFrame frame_;
   workload::Workload workload_;
   std::vector<std::vector<measurement::ResultRow>> rows_;  // by motion
   std::vector<choose::Candidate> candidates_;
@@ -100,13 +98,10 @@ workload::Workload workload_for(const ChooseOptions& options, const workload::Se
                                 double rate_hz) {
   const contestants::Selectors& selectors = options.selectors;
   if (!selectors.scene.empty())
-    return choose::workload_by_time(
-        scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection,
-        motions_of(options), rate_hz);
-  const std::string mesh =
-      options.selectors.meshes.empty() ? meshes::default_mesh() : options.selectors.meshes.front();
+    return choose::workload_by_time(scene_of(selectors), selection, motions_of(options), rate_hz);
+  const std::string mesh = mesh_of(selectors);
   return choose::workload_by_time(results::without_directories(mesh),
-                                  meshes::load_mesh(mesh, options.selectors.normalize), selection,
+                                  meshes::load_mesh(mesh, selectors.normalize), selection,
                                   motions_of(options), rate_hz);
 }
 
@@ -117,18 +112,17 @@ ChooseCommand::ChooseCommand(const ProgramContext& context, const ChooseOptions&
       progress_(std::in_place, "choose", start_, deadline_),
       limits_(checked_limits(options)),
       selection_(contestants::check(options.selectors, context.roster)),
-      description_(results::begun_run(context.argc, context.argv)),
+      workers_(worker_options(options.workers)),
+      frame_(context, options.out),
       workload_(workload_for(options, selection_, limits_.rate_hz)) {
-  if (!options.out.empty()) folder_.emplace(options.out);
-  description_.query = selection_.queries.front();
+  frame_.description.query = selection_.queries.front();
   if (options.selectors.detectors.empty())
     selection_.contestants = options.selectors.scene.empty()
-                                 ? context.roster.candidates(description_.query)
-                                 : context.roster.scene_candidates(description_.query);
-  description_.flushed_to_zero = support::restore_denormals();
-  description_.seed = selection_.seed;
-  description_.effort = effort_for(options.quick);
-  description_.core = results::core_for_workers();
+                                 ? context.roster.candidates(frame_.description.query)
+                                 : context.roster.scene_candidates(frame_.description.query);
+  frame_.description.seed = selection_.seed;
+  frame_.description.effort = effort_for(options.quick);
+  frame_.description.core = workers_.core = results::core_for_workers();
 }
 
 const contestants::ContestantSpec& ChooseCommand::spec_of(const choose::Candidate& candidate) const {
@@ -144,7 +138,7 @@ std::string ChooseCommand::code(const std::vector<std::size_t>& ranked) const {
     const contestants::ContestantSpec& spec = spec_of(candidates_[i]);
     const bool is_class = context_.roster.find(spec.name).library != nullptr;
     if (text.empty() || is_class)
-      text += choose::code_for(context_.roster, spec, workload_, description_.query);
+      text += choose::code_for(context_.roster, spec, workload_, frame_.description.query);
     if (is_class || !workload_.scene) break;
   }
   return text;
@@ -164,26 +158,24 @@ void ChooseCommand::measure_motions(measurement::Comparison& comparison) {
   });
   try {
     while (rows_.size() < workload_.traces.size())
-      rows_.push_back(comparison.run(rows_.size(), description_.query));
+      rows_.push_back(comparison.run(rows_.size(), frame_.description.query));
     return;
   } catch (const support::OutOfTime&) {
     time_is_up_ = true;
   } catch (const support::Interrupted&) {
     interrupted_ = true;
   }
-  description_.finished = false;
+  frame_.description.finished = false;
   whole_motions_ = rows_.size();
   if (time_is_up_) add_partial_motion(comparison);
 }
 
 void ChooseCommand::measure() {
-  workers::WorkerOptions workers = worker_options(options_.workers);
-  workers.core = description_.core;
-  measurement::Comparison comparison(context_.roster, workload_, selection_.contestants, workers,
-                                     description_.effort, selection_.seed);
+  measurement::Comparison comparison(context_.roster, workload_, selection_.contestants, workers_,
+                                     frame_.description.effort, selection_.seed);
   measure_motions(comparison);
   progress_.reset();
-  description_.steadiness = comparison.steadiness();
+  frame_.description.steadiness = comparison.steadiness();
   candidates_ = choose::candidates_of(rows_);
   for (const contestants::ContestantSpec& spec : selection_.contestants) {
     const auto is_it = [&](const choose::Candidate& one) { return one.contestant() == spec.text(); };
@@ -193,8 +185,8 @@ void ChooseCommand::measure() {
 }
 
 std::string ChooseCommand::run_json(const measurement::Comparison& comparison) const {
-  auto json =
-      nlohmann::ordered_json::parse(results::run_json(description_, workload_, comparison.contestants()));
+  auto json = nlohmann::ordered_json::parse(
+      results::run_json(frame_.description, workload_, comparison.contestants()));
   const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
   json["choose"] = {
       {"rate_hz", limits_.rate_hz},
@@ -207,15 +199,16 @@ std::string ChooseCommand::run_json(const measurement::Comparison& comparison) c
 }
 
 void ChooseCommand::save(const measurement::Comparison& comparison) const {
-  if (!folder_) return;
+  if (!frame_.folder) return;
   std::vector<measurement::ResultRow> rows;
   for (const std::vector<measurement::ResultRow>& some : rows_)
     rows.insert(rows.end(), some.begin(), some.end());
-  folder_->write(results::results_csv(description_.run_id, rows), run_json(comparison));
+  frame_.folder->write(results::results_csv(frame_.description.run_id, rows), run_json(comparison));
   if (interrupted_) return;
-  folder_->write_file("choose.csv", choose::choose_csv(description_.run_id, asked(), candidates_));
+  frame_.folder->write_file("choose.csv",
+                            choose::choose_csv(frame_.description.run_id, asked(), candidates_));
   const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
-  if (!ranked.empty()) folder_->write_file("choose.cpp", code(ranked));
+  if (!ranked.empty()) frame_.folder->write_file("choose.cpp", code(ranked));
 }
 
 int ChooseCommand::report() const {
@@ -249,11 +242,9 @@ int ChooseCommand::run() {
   out.finish();
   progress_.emplace("choose", start_, deadline_);
   measure();
-  if (interrupted_) {
-    fmt::print(stderr, "touchmark: interrupted; nothing is recommended by {} of {} motions\n", rows_.size(),
-               workload_.traces.size());
-    return support::exit_interrupted;
-  }
+  if (interrupted_)
+    return interrupted(
+        fmt::format("nothing is recommended by {} of {} motions", rows_.size(), workload_.traces.size()));
   if (time_is_up_ &&
       std::ranges::none_of(candidates_, [](const auto& one) { return one.times.has_value(); })) {
     fmt::print(

@@ -13,19 +13,17 @@
 
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/extra/gate_options.h"
+#include "bench/cli/options.h"
+#include "bench/cli/run_frame.h"
+#include "bench/cli/selected_workload.h"
 #include "bench/contestants/roster.h"
-#include "bench/meshes/meshes.h"
 #include "bench/regression/gate/baseline.h"
 #include "bench/regression/gate/gate_report.h"
 #include "bench/regression/gate/paired_batch.h"
 #include "bench/results/build_info.h"
 #include "bench/results/system_info.h"
-#include "bench/scenes/scene_source.h"
 #include "bench/support/files/atomic_file.h"
 #include "bench/support/files/standard_output.h"
-#include "bench/support/progress.h"
-#include "bench/support/system/denormals.h"
-#include "bench/support/system/interrupt.h"
 #include "bench/workload/content_hash.h"
 #include "bench/workload/query_name.h"
 
@@ -37,7 +35,7 @@ namespace {
 
 class Gate {
  public:
-  Gate(const contestants::Roster& roster, const GateOptions& options);
+  Gate(const ProgramContext& context, const GateOptions& options);
   int run();
 
  private:
@@ -56,31 +54,18 @@ class Gate {
   contestants::CheckedSelectors selection_;
   contestants::ContestantSpec reference_;
   double tolerance_;
+  workers::WorkerOptions workers_;
+  gate::Baseline baseline_;
+  RunFrame frame_;
+  ReportFile junit_, markdown_;
   workload::Workload workload_;
   std::uint64_t mesh_hash_;
   workers::SharedArena arena_;
   ground_truth::WorkloadTruths truths_;
-  gate::Baseline baseline_;
-  support::ProgressLine progress_;
   std::vector<gate::GateLine> lines_;
-  ReportFile junit_, markdown_;
   std::uint64_t judged_ = 0;
   int status_ = support::exit_done;
 };
-
-workload::Workload workload_for(const GateOptions& options, const contestants::CheckedSelectors& selection) {
-  constexpr std::size_t steps = 5000;
-  const contestants::Selectors& selectors = options.selectors;
-  const std::vector<std::string> named =
-      selectors.trajectories.empty() ? std::vector<std::string>{"slide"} : selectors.trajectories;
-  if (!selectors.scene.empty())
-    return workload::make_scene_workload(
-        scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection, named,
-        steps);
-  const std::string mesh = selectors.meshes.empty() ? meshes::default_mesh() : selectors.meshes.front();
-  return workload::make_workload(results::without_directories(mesh),
-                                 meshes::load_mesh(mesh, selectors.normalize), selection, named, steps);
-}
 
 workers::WorkerOptions workers_for(const GateOptions& options) {
   workers::WorkerOptions workers = worker_options(options.workers);
@@ -105,19 +90,22 @@ contestants::CheckedSelectors checked(const GateOptions& options, const contesta
   return contestants::check(options.selectors, roster);
 }
 
-Gate::Gate(const contestants::Roster& roster, const GateOptions& options)
-    : roster_(roster),
+Gate::Gate(const ProgramContext& context, const GateOptions& options)
+    : roster_(context.roster),
       options_(options),
-      selection_(checked(options, roster)),
-      reference_(roster.parse_all({options.reference}).front()),
+      selection_(checked(options, roster_)),
+      reference_(roster_.parse_all({options.reference}).front()),
       tolerance_(checked_tolerance(options.tolerance)),
-      workload_(workload_for(options, selection_)),
-      mesh_hash_(workload::hash_of_things(workload_)),
-      arena_(workload_, workers_for(options)),
-      truths_(workload_),
+      workers_(workers_for(options)),
       baseline_(baseline_for(options)),
+      frame_(context, ""),
       junit_(options.reports.junit),
-      markdown_(options.reports.markdown) {}
+      markdown_(options.reports.markdown),
+      workload_(workload_of(options.selectors, mesh_of(options.selectors), selection_,
+                            or_else(options.selectors.trajectories, {"slide"}), 5000)),
+      mesh_hash_(workload::hash_of_things(workload_)),
+      arena_(workload_, workers_),
+      truths_(workload_) {}
 
 std::vector<gate::GatePair> Gate::pairs() const {
   std::vector<gate::GatePair> pairs;
@@ -179,14 +167,14 @@ void Gate::check_pair(const gate::GatePair& pair, const gate::BaselineRow& row) 
   gate::GateLine line{row.key, row.ratio, {}, "-", ""};
   try {
     line.judgement = gate::judge(row.ratio.ratio, tolerance_, [&] {
-      progress_.show(fmt::format("{}: {}", row.key.trajectory, row.key.detector));
+      frame_.progress.show(fmt::format("{}: {}", row.key.trajectory, row.key.detector));
       return batches.measure();
     });
     line.answers = compare_answers(row, batches.answers());
     line.verdict = name_of(line.judgement.verdict);
     if (line.answers != "same" && line.answers != "-") line.verdict = "CHANGED";
   } catch (const gate::GateFailure& failure) {
-    progress_.clear();
+    frame_.progress.clear();
     fmt::print(stderr, "touchmark: {}\n", failure.what());
     line.verdict = "FAILED";
   }
@@ -208,7 +196,7 @@ void Gate::write_pair(const gate::GatePair& pair) {
   std::vector<double> log_ratios;
   int held = 0;
   while (held < 2 && line.judgement.batches < gate::max_batches) {
-    progress_.show(fmt::format("{}: {}", line.key.trajectory, line.key.detector));
+    frame_.progress.show(fmt::format("{}: {}", line.key.trajectory, line.key.detector));
     line.judgement.batch = batches.measure();
     ++line.judgement.batches;
     if (!gate::control_holds(line.judgement.batch, tolerance_)) continue;
@@ -253,24 +241,21 @@ int Gate::run() {
   if (!options_.write_baseline) {
     for (const gate::GatePair& pair : pairs) rows.push_back(&expected(pair));  // before anything is measured
   }
-  support::watch_for_interrupts();
-  support::restore_denormals();
+  const auto ask_pair = [&](std::size_t i) {
+    const auto start = std::chrono::steady_clock::now();
+    options_.write_baseline ? write_pair(pairs[i]) : check_pair(pairs[i], *rows[i]);
+    lines_.back().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   try {
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const auto start = std::chrono::steady_clock::now();
-      options_.write_baseline ? write_pair(pairs[i]) : check_pair(pairs[i], *rows[i]);
-      lines_.back().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
-  } catch (const support::Interrupted&) {
-    progress_.clear();
-    fmt::print(stderr, "touchmark: interrupted; nothing is judged\n");
-    return support::exit_interrupted;
+    const bool finished = frame_.finishes([&] {
+      for (std::size_t i = 0; i < pairs.size(); ++i) ask_pair(i);
+    });
+    if (!finished) return interrupted("nothing is judged");
   } catch (const gate::GateFailure& failure) {  // there is nothing to write a baseline from
-    progress_.clear();
+    frame_.progress.clear();
     fmt::print(stderr, "touchmark: {}\n", failure.what());
     return support::exit_check_failed;
   }
-  progress_.clear();
   report();
   if (status_ == support::exit_inconclusive) {
     fmt::print(stderr, "touchmark: inconclusive: {} did not measure equal to itself within {}\n",
@@ -290,7 +275,7 @@ void add_gate(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<GateOptions>();
   CLI::App* command = add_command(program, "gate");
   add_gate_options(*command, context, *options);
-  command->final_callback([options, &context] { context.status = Gate(context.roster, *options).run(); });
+  command->final_callback([options, &context] { context.status = Gate(context, *options).run(); });
 }
 
 }  // namespace touchmark::bench::cli

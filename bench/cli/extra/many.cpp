@@ -11,16 +11,13 @@
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/options.h"
 #include "bench/cli/plugin_option.h"
+#include "bench/cli/run_frame.h"
 #include "bench/contestants/roster.h"
 #include "bench/experiments/many/many_run.h"
 #include "bench/meshes/meshes.h"
-#include "bench/results/results_folder.h"
 #include "bench/results/system_info.h"
 #include "bench/support/checked.h"
 #include "bench/support/files/standard_output.h"
-#include "bench/support/progress.h"
-#include "bench/support/system/denormals.h"
-#include "bench/support/system/interrupt.h"
 #include "core/search/threads/parallel.h"
 
 namespace touchmark::bench::cli {
@@ -43,10 +40,6 @@ struct ManySettings {
   std::size_t rounds = 0;
   std::uint64_t seed = 0;
 };
-
-std::vector<std::string> or_else(const std::vector<std::string>& chosen, std::vector<std::string> otherwise) {
-  return chosen.empty() ? otherwise : chosen;
-}
 
 /// Without --detector our fast exact ones, the reference, and Embree where it is built in.
 std::vector<contestants::ContestantSpec> checked_contestants(const std::vector<std::string>& names,
@@ -96,39 +89,30 @@ int run_many(const ProgramContext& context, const ManyCommandOptions& options) {
   const ManySettings settings = checked(options, context.roster);
   const support::Length reach_text = support::checked_finite_length("--reach", options.reach);
   const std::string name = options.mesh.empty() ? meshes::default_mesh() : options.mesh;
-  std::optional<results::ResultsFolder> folder;
-  if (!options.out.empty()) folder.emplace(options.out);
-  support::restore_denormals();
-  support::ProgressLine progress;
-  progress.show(fmt::format("{}: building", name));
+  RunFrame frame(context, options.out);
+  frame.progress.show(fmt::format("{}: building", name));
   const TriangleMesh mesh = meshes::load_mesh(name, options.normalize);
   const double reach = reach_text.in_mesh_units(mesh);
   many::ManyRun run(context.roster, settings.contestants, results::without_directories(name), mesh);
-  support::watch_for_interrupts();
   std::vector<many::ManyRow> rows;
-  int status = support::exit_done;
-  try {
+  const bool finished = frame.finishes([&] {
     for (const many::Kind kind : settings.kinds) {
-      progress.show(fmt::format("{}, {}: making the points", name, many::name_of(kind)));
+      frame.progress.show(fmt::format("{}, {}: making the points", name, many::name_of(kind)));
       run.take(many::make_workload(kind, mesh, reach, settings.sizes, settings.seed));
       for (const ManyOptions& how : settings.options) {
         const std::vector<many::ManyRow> more =
             run.run(how, settings.rounds, settings.seed, [&](const std::string& contestant) {
-              progress.show(fmt::format("{}, {}: {}", name, many::name_of(kind), contestant));
+              frame.progress.show(fmt::format("{}, {}: {}", name, many::name_of(kind), contestant));
             });
         rows.insert(rows.end(), more.begin(), more.end());
       }
     }
-  } catch (const support::Interrupted&) {
-    status = support::exit_interrupted;
-    progress.clear();
-    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows.size());
-  }
-  progress.clear();
+  });
   support::StandardOutput out;
   out.write(many::many_table(rows));
-  if (folder) folder->write_file("many.csv", many::many_csv(rows));
+  if (frame.folder) frame.folder->write_file("many.csv", many::many_csv(rows));
   out.finish();
+  int status = finished ? support::exit_done : interrupted(rows.size());
   for (const many::ManyRow& row : rows) {
     if (row.differing == 0) continue;
     if (status == support::exit_done) status = support::exit_check_failed;

@@ -48,10 +48,6 @@ std::vector<workload::Query> checked_queries(const std::vector<std::string>& nam
   return queries.empty() ? std::vector{workload::Query::nearest} : queries;
 }
 
-std::vector<std::string> or_else(std::vector<std::string> given, std::vector<std::string> otherwise) {
-  return given.empty() ? std::move(otherwise) : std::move(given);
-}
-
 class Planner {
  public:
   Planner(const contestants::Roster& roster, const PlanOptions& options)

@@ -14,6 +14,7 @@
 #include "bench/cli/extra/coupling_options.h"
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/options.h"
+#include "bench/cli/run_frame.h"
 #include "bench/contestants/roster.h"
 #include "bench/experiments/proxy/proxy_csv.h"
 #include "bench/experiments/proxy/proxy_report.h"
@@ -21,14 +22,10 @@
 #include "bench/experiments/proxy/proxy_trace.h"
 #include "bench/experiments/proxy/stab.h"
 #include "bench/meshes/meshes.h"
-#include "bench/results/results_folder.h"
 #include "bench/support/checked.h"
 #include "bench/support/files/atomic_file.h"
 #include "bench/support/files/standard_output.h"
 #include "bench/support/length.h"
-#include "bench/support/progress.h"
-#include "bench/support/system/denormals.h"
-#include "bench/support/system/interrupt.h"
 #include "bench/trajectories/trajectories.h"
 
 namespace touchmark::bench::cli {
@@ -59,6 +56,12 @@ proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::R
   request.seed = support::checked_count("--seed", options.seed, 0, UINT32_MAX);
   request.detector = roster.parse_all({options.detector}).front().text();
   request.coupling = checked_coupling(options.coupling);
+  if (options.mesh.empty() != options.trajectory.empty())
+    throw std::invalid_argument("--mesh and --trajectory go together");
+  if (!options.trace.empty() && (options.mesh.empty() || options.methods.size() != 1))
+    throw std::invalid_argument("--trace needs one --method, a --mesh and a --trajectory");
+  if (!options.mesh.empty() && !options.families.empty())
+    throw std::invalid_argument("--family and --mesh exclude one another");
   return request;
 }
 
@@ -82,17 +85,9 @@ class ProxyCommand {
       : options_(options),
         roster_(context.roster),
         run_(context.roster, request_of(options, context.roster)),
-        description_(results::begun_run(context.argc, context.argv)) {
-    if (options.mesh.empty() != options.trajectory.empty())
-      throw std::invalid_argument("--mesh and --trajectory go together");
-    if (!options.trace.empty() && (options.mesh.empty() || options.methods.size() != 1))
-      throw std::invalid_argument("--trace needs one --method, a --mesh and a --trajectory");
-    if (!options.mesh.empty() && !options.families.empty())
-      throw std::invalid_argument("--family and --mesh exclude one another");
-    if (!options.out.empty()) folder_.emplace(options.out);
-    description_.flushed_to_zero = support::restore_denormals();
-    description_.seed = run_.request().seed;
-    description_.effort = {0, 0, 0, 0};
+        frame_(context, options.out) {
+    frame_.description.seed = run_.request().seed;
+    frame_.description.effort = {0, 0, 0, 0};
   }
 
   int run();
@@ -104,9 +99,7 @@ class ProxyCommand {
   const ProxyOptions& options_;
   const contestants::Roster& roster_;
   proxy::ProxyRun run_;
-  std::optional<results::ResultsFolder> folder_;
-  results::RunDescription description_;
-  support::ProgressLine progress_;
+  RunFrame frame_;
 };
 
 void ProxyCommand::run_own_course() {
@@ -121,40 +114,34 @@ void ProxyCommand::run_own_course() {
     };
   }
   run_.run_course_of(
-      options_.mesh, course, [&](const std::string& what) { progress_.show(what); }, seen);
+      options_.mesh, course, [&](const std::string& what) { frame_.progress.show(what); }, seen);
   if (!file) return;
   file->write(trace.text());
   file->commit();
 }
 
 void ProxyCommand::report() {
-  progress_.clear();
   const std::string faults = proxy::proxy_faults(run_.scores());
   support::StandardOutput().write(proxy::proxy_table(run_.scores()) + (faults.empty() ? "" : "\n" + faults));
-  if (!folder_) return;
-  folder_->write_file("proxy.csv", proxy::proxy_csv(description_.run_id, run_.scores()));
+  if (!frame_.folder) return;
+  frame_.folder->write_file("proxy.csv", proxy::proxy_csv(frame_.description.run_id, run_.scores()));
   if (options_.mesh.empty()) {
     const proxy::ProxyRequest& request = run_.request();
-    folder_->write_file("stab.csv",
-                        proxy::stab_csv(roster_, request.methods, request.coupling, request.detector));
+    frame_.folder->write_file("stab.csv",
+                              proxy::stab_csv(roster_, request.methods, request.coupling, request.detector));
   }
-  folder_->write_file("run.json", proxy::proxy_json(description_, run_));
+  frame_.folder->write_file("run.json", proxy::proxy_json(frame_.description, run_));
 }
 
 int ProxyCommand::run() {
-  support::watch_for_interrupts();
-  try {
+  const bool finished = frame_.finishes([this] {
     if (options_.mesh.empty())
-      run_.run([&](const std::string& what) { progress_.show(what); });
+      run_.run([&](const std::string& what) { frame_.progress.show(what); });
     else
       run_own_course();
-  } catch (const support::Interrupted&) {
-    description_.finished = false;
-    report();
-    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", run_.scores().size());
-    return support::exit_interrupted;
-  }
+  });
   report();
+  if (!finished) return interrupted(run_.scores().size());
   const bool broken = std::any_of(run_.scores().begin(), run_.scores().end(),
                                   [](const proxy::Score& score) { return score.broken(); });
   return broken ? support::exit_check_failed : support::exit_done;

@@ -14,16 +14,12 @@
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/options.h"
 #include "bench/cli/plugin_option.h"
+#include "bench/cli/run_frame.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
 #include "bench/results/build_info.h"
 #include "bench/results/results_csv.h"
-#include "bench/results/results_folder.h"
-#include "bench/results/run_json.h"
 #include "bench/support/numbers.h"
-#include "bench/support/progress.h"
-#include "bench/support/system/denormals.h"
-#include "bench/support/system/interrupt.h"
 #include "bench/workload/content_hash.h"
 
 namespace touchmark::bench::cli {
@@ -59,7 +55,8 @@ class BatchRun {
         manifest_(batch::Manifest::read(options.manifest)),
         shard_(checked_shard(options.shard)),
         effort_(batch::effort_named(manifest_.effort)),
-        folder_(options.out) {
+        frame_(context, "") {
+    frame_.folder.emplace(options.out);  // which also refuses an empty name
     if (manifest_.version != results::build_info().version) {
       throw std::invalid_argument(fmt::format("{}: planned by version {}, this is {}: plan it anew",
                                               options.manifest, manifest_.version,
@@ -82,8 +79,7 @@ class BatchRun {
   batch::Manifest manifest_;
   Shard shard_;
   measurement::Effort effort_;
-  results::ResultsFolder folder_;
-  support::ProgressLine progress_;
+  RunFrame frame_;
   std::size_t skipped_ = 0, done_ = 0;
 };
 
@@ -136,7 +132,7 @@ void BatchRun::run_mesh(const batch::BatchMesh& planned) {
   skipped_ += planned.jobs.size() - missing.size();
   if (missing.empty()) return;
   if (missing.size() < planned.jobs.size() && effort_.repetitions > 0) {
-    progress_.clear();
+    frame_.progress.clear();
     fmt::print(
         stderr,
         "touchmark: {}, {}: {} of {} jobs were finished before; the others get another run_id: compare times "
@@ -150,7 +146,7 @@ void BatchRun::run_mesh(const batch::BatchMesh& planned) {
   workers.calibrate_clock = effort_.repetitions > 0;
   measurement::Comparison comparison(context_.roster, workload, missing, workers, effort_, planned.seed);
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
-    progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
+    frame_.progress.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
   });
   const std::vector<measurement::ResultRow> rows = comparison.run(0, planned.query);
   description.steadiness = comparison.steadiness();
@@ -160,26 +156,20 @@ void BatchRun::run_mesh(const batch::BatchMesh& planned) {
                                          manifest_.effort, manifest_.version);
     const batch::JobResult job{id, results::machine_fingerprint(), run,
                                results::fields_of(results::results_columns(), row, description.run_id)};
-    folder_.write_file(batch::job_path("", id), job.json());
+    frame_.folder->write_file(batch::job_path("", id), job.json());
     ++done_;
   }
 }
 
 int BatchRun::run() {
-  support::watch_for_interrupts();
-  support::restore_denormals();
-  int status = support::exit_done;
-  try {
+  const bool finished = frame_.finishes([this] {
     for (std::size_t index = 0; index < manifest_.meshes.size(); ++index) {
       if (shard_.has(index)) run_mesh(manifest_.meshes[index]);
     }
-  } catch (const support::Interrupted&) {
-    status = support::exit_interrupted;
-  }
-  progress_.clear();
+  });
   fmt::print(stderr, "touchmark: {}shard {}: {} jobs done, {} were finished before\n",
-             status == support::exit_done ? "" : "interrupted; ", options_.shard, done_, skipped_);
-  return status;
+             finished ? "" : "interrupted; ", options_.shard, done_, skipped_);
+  return finished ? support::exit_done : support::exit_interrupted;
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/extra/scale_bodies.h"
 #include "bench/cli/options.h"
+#include "bench/cli/run_frame.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/contestants/roster.h"
@@ -27,14 +28,9 @@
 #include "bench/meshes/meshes.h"
 #include "bench/results/report_table.h"
 #include "bench/results/results_csv.h"
-#include "bench/results/results_folder.h"
-#include "bench/results/run_json.h"
 #include "bench/support/files/standard_output.h"
 #include "bench/support/numbers.h"
-#include "bench/support/progress.h"
 #include "bench/support/system/available_memory.h"
-#include "bench/support/system/denormals.h"
-#include "bench/support/system/interrupt.h"
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/query_name.h"
 
@@ -72,13 +68,6 @@ std::string slowed(const std::string& trajectory, double part) {
   return trajectory;
 }
 
-contestants::CheckedSelectors checked(const contestants::Selectors& selectors,
-                                      const contestants::Roster& roster) {
-  contestants::CheckedSelectors selection = contestants::check(selectors, roster);
-  if (selectors.detectors.empty()) selection.contestants = roster.forms(&contestants::Forms::scaled);
-  return selection;
-}
-
 class ScaleRun {
  public:
   ScaleRun(const ProgramContext& context, const ScaleOptions& options);
@@ -110,10 +99,8 @@ class ScaleRun {
   scaling::Shrinks shrinks_;
   std::vector<std::string> meshes_;
   std::map<std::string, double> first_triangles_;  // by family
-  std::optional<results::ResultsFolder> folder_;
-  results::RunDescription description_;
   workers::WorkerOptions workers_;
-  support::ProgressLine progress_;
+  RunFrame frame_;
   support::StandardOutput out_;
   std::map<std::string, TooMuch> too_much_;  // by contestant
   std::vector<measurement::ResultRow> rows_;
@@ -123,27 +110,23 @@ class ScaleRun {
 ScaleRun::ScaleRun(const ProgramContext& context, const ScaleOptions& options)
     : roster_(context.roster),
       options_(options),
-      selection_(checked(options.selectors, context.roster)),
+      selection_(contestants::check(options.selectors, context.roster, &contestants::Forms::scaled)),
       limit_s_(support::positive_number("--limit-seconds", options.limit)),
       shrinks_(checked_shrinks(options.shrink)),
-      meshes_(scaling::meshes_of_sizes(options.selectors.meshes.empty()
-                                           ? std::vector<std::string>{"noisy-sphere"}
-                                           : options.selectors.meshes,
-                                       options.sizes, options.quick ? quick_sizes : default_sizes)),
-      description_(results::begun_run(context.argc, context.argv)),
-      workers_(worker_options(options.workers)) {
+      meshes_(scaling::meshes_of_sizes(or_else(options.selectors.meshes, {"noisy-sphere"}), options.sizes,
+                                       options.quick ? quick_sizes : default_sizes)),
+      workers_(worker_options(options.workers)),
+      frame_(context, options.out) {
   // A name that is wrong should not be found out after the smaller meshes.
   for (const std::string& mesh : meshes_) {
     if (!scaling::comes_in_sizes(scaling::family_of(mesh)))
       meshes::load_mesh(mesh, options.selectors.normalize);
   }
-  if (!options.out.empty()) folder_.emplace(options.out);
   if (options.workers.timeout.empty()) workers_.build_timeout = default_build_timeout;
-  description_.flushed_to_zero = support::restore_denormals();
-  description_.query = selection_.queries.front();
-  description_.seed = selection_.seed;
-  if (options.quick) description_.effort = measurement::quick_effort;
-  description_.core = workers_.core = results::core_for_workers();
+  frame_.description.query = selection_.queries.front();
+  frame_.description.seed = selection_.seed;
+  if (options.quick) frame_.description.effort = measurement::quick_effort;
+  frame_.description.core = workers_.core = results::core_for_workers();
 }
 
 /// All at once while there is room, so that times of one mesh compare as those of `touchmark bench` do.
@@ -160,7 +143,7 @@ void ScaleRun::skip_known(measurement::Comparison& comparison, std::size_t trian
     const auto found = too_much_.find(spec.text());
     if (found == too_much_.end() || found->second.triangles >= triangles) continue;
     comparison.skip(spec, found->second.status);
-    progress_.clear();
+    frame_.progress.clear();
     fmt::print(stderr, "touchmark: {}: {}\n", spec.text(), found->second.status);
   }
 }
@@ -186,8 +169,8 @@ void ScaleRun::note_too_much(const measurement::Comparison& comparison,
 std::vector<measurement::ResultRow> ScaleRun::run_trace(measurement::Comparison& comparison,
                                                         const workload::Workload& workload,
                                                         std::size_t trace) {
-  std::vector<measurement::ResultRow> rows = comparison.run(trace, description_.query);
-  progress_.clear();
+  std::vector<measurement::ResultRow> rows = comparison.run(trace, frame_.description.query);
+  frame_.progress.clear();
   out_.write(fmt::format("\n{}, {} ({})\n{}{}", workload.mesh_name, workload.trajectories[trace],
                          workload::trace_text(workload, trace), results::comparison_text(rows),
                          results::verdict(rows, comparison.steadiness().back())));
@@ -203,10 +186,9 @@ double ScaleRun::edges_of_first(const std::string& name, const TriangleMesh& mes
 }
 
 void ScaleRun::run_mesh(const std::string& name) {
-  progress_.show(fmt::format("{}: making the mesh and the trajectories", name));
+  frame_.progress.show(fmt::format("{}: making the mesh and the trajectories", name));
   const contestants::Selectors& selectors = options_.selectors;
-  const std::vector<std::string> asked =
-      selectors.trajectories.empty() ? std::vector<std::string>{"slide"} : selectors.trajectories;
+  const std::vector<std::string> asked = or_else(selectors.trajectories, {"slide"});
   TriangleMesh mesh = meshes::load_mesh(name, selectors.normalize);
   contestants::CheckedSelectors selection = selection_;
   std::vector<std::string> moves = asked;
@@ -222,12 +204,12 @@ void ScaleRun::run_mesh(const std::string& name) {
   // One curve, whatever speed it has on this mesh.
   for (std::size_t i = 0; i < asked.size(); ++i)
     if (moves[i] != asked[i]) workload.trajectories[i] = asked[i];
-  progress_.show(fmt::format("{}: preparing the oracle", name));
-  measurement::Comparison comparison(roster_, workload, selection_.contestants, workers_, description_.effort,
-                                     selection_.seed);
+  frame_.progress.show(fmt::format("{}: preparing the oracle", name));
+  measurement::Comparison comparison(roster_, workload, selection_.contestants, workers_,
+                                     frame_.description.effort, selection_.seed);
   comparison.set_schedule(schedule_for(workload));
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
-    progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
+    frame_.progress.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
   });
   skip_known(comparison, workload.mesh.size());
   std::vector<measurement::ResultRow> rows;
@@ -235,29 +217,24 @@ void ScaleRun::run_mesh(const std::string& name) {
     std::ranges::move(run_trace(comparison, workload, trace), std::back_inserter(rows));
   note_too_much(comparison, rows);
   std::ranges::move(rows, std::back_inserter(rows_));
-  description_.steadiness = comparison.steadiness();
-  runs_.push_back(results::run_json(description_, workload, comparison.contestants()));
+  frame_.description.steadiness = comparison.steadiness();
+  runs_.push_back(results::run_json(frame_.description, workload, comparison.contestants()));
   save(runs_.size() == meshes_.size());
 }
 
 void ScaleRun::save(bool finished) const {
-  if (!folder_) return;
-  folder_->write(results::results_csv(description_.run_id, rows_), results::joined_run_json(runs_, finished));
-  folder_->write_file("scaling.csv", scaling::scaling_csv(scaling::growth_of(rows_, shrinks_)));
+  if (!frame_.folder) return;
+  frame_.folder->write(results::results_csv(frame_.description.run_id, rows_),
+                       results::joined_run_json(runs_, finished));
+  frame_.folder->write_file("scaling.csv", scaling::scaling_csv(scaling::growth_of(rows_, shrinks_)));
 }
 
 int ScaleRun::run() {
-  support::watch_for_interrupts();
-  bool interrupted = false;
-  try {
+  const bool finished = frame_.finishes([this] {
     for (const std::string& mesh : meshes_) run_mesh(mesh);
-  } catch (const support::Interrupted&) {
-    interrupted = true;
-    progress_.clear();
-    fmt::print(stderr, "touchmark: interrupted; the rows of {} finished meshes are kept\n", runs_.size());
-  }
+  });
   out_.write(scaling::growth_table(scaling::growth_of(rows_, shrinks_)));
-  if (interrupted) return support::exit_interrupted;
+  if (!finished) return interrupted(fmt::format("the rows of {} finished meshes are kept", runs_.size()));
   const auto where = [](const measurement::ResultRow& row) { return row.mesh + ", " + row.trajectory; };
   return results::print_faults(rows_, where) ? support::exit_check_failed : support::exit_done;
 }

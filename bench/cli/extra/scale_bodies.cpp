@@ -7,16 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "bench/cli/run_frame.h"
 #include "bench/contestants/roster.h"
 #include "bench/experiments/scaling/body_run.h"
 #include "bench/experiments/scaling/mesh_sizes.h"
-#include "bench/results/results_folder.h"
-#include "bench/results/run_json.h"
 #include "bench/support/files/standard_output.h"
 #include "bench/support/numbers.h"
-#include "bench/support/progress.h"
-#include "bench/support/system/denormals.h"
-#include "bench/support/system/interrupt.h"
 
 namespace touchmark::bench::cli {
 
@@ -76,45 +72,34 @@ int run_scale_bodies(const ProgramContext& context, const ScaleBodiesOptions& op
   refuse_what_is_of_meshes(options.selectors);
   const double limit_s = support::positive_number("--limit-seconds", options.limit);
   const std::vector<std::size_t> sizes = sizes_of(options);
-  std::optional<results::ResultsFolder> folder;
-  if (!options.out.empty()) folder.emplace(options.out);
-  results::RunDescription description = results::begun_run(context.argc, context.argv);
-  description.flushed_to_zero = support::restore_denormals();
+  std::vector<contestants::ContestantSpec> contestants =
+      contestants_of(options.selectors.detectors, context.roster);
+  RunFrame frame(context, options.out);
   constexpr std::size_t rounds = 9, quick_rounds = 3;
-  scaling::BodyRun run(context.roster, contestants_of(options.selectors.detectors, context.roster),
-                       options.quick ? quick_rounds : rounds);
-  support::ProgressLine progress;
-  support::watch_for_interrupts();
+  scaling::BodyRun run(context.roster, std::move(contestants), options.quick ? quick_rounds : rounds);
   std::vector<scaling::BodyRow> rows;
   std::vector<std::string> runs;
-  bool interrupted = false;
-  try {
+  const bool finished = frame.finishes([&] {
     for (const std::string motion : {"still", "one", "drift", "all"}) {
       for (const std::size_t size : sizes) {
         const std::vector<scaling::BodyRow> more =
             run.run(size, motion, limit_s, [&](const std::string& contestant) {
-              progress.show(fmt::format("field:{}:motion={}: {}", size, motion, contestant));
+              frame.progress.show(fmt::format("field:{}:motion={}: {}", size, motion, contestant));
             });
         rows.insert(rows.end(), more.begin(), more.end());
-        runs.push_back(results::run_json(description, run.workload(), {}));
+        runs.push_back(results::run_json(frame.description, run.workload(), {}));
       }
     }
-  } catch (const support::Interrupted&) {
-    interrupted = true;
-  }
-  progress.clear();
+  });
   support::StandardOutput out;
   out.write(scaling::bodies_table(rows));
-  if (folder && !runs.empty()) {
-    folder->write_file("bodies.csv", scaling::bodies_csv(rows));
-    folder->write_file("bodies_growth.csv", scaling::bodies_growth_csv(scaling::growth_of(rows)));
-    folder->write_file("run.json", results::joined_run_json(runs, !interrupted));
+  if (frame.folder && !runs.empty()) {
+    frame.folder->write_file("bodies.csv", scaling::bodies_csv(rows));
+    frame.folder->write_file("bodies_growth.csv", scaling::bodies_growth_csv(scaling::growth_of(rows)));
+    frame.folder->write_file("run.json", results::joined_run_json(runs, finished));
   }
   out.finish();
-  if (interrupted) {
-    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows.size());
-    return support::exit_interrupted;
-  }
+  if (!finished) return interrupted(rows.size());
   return status_of(rows, context.roster);
 }
 

@@ -12,6 +12,8 @@
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/extra/servo_options.h"
 #include "bench/cli/repeat_command.h"
+#include "bench/cli/run_frame.h"
+#include "bench/cli/selected_workload.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/proxy/proxy_report.h"
 #include "bench/experiments/servo/real_time_host.h"
@@ -19,13 +21,7 @@
 #include "bench/experiments/servo/servo_report.h"
 #include "bench/experiments/servo/servo_run.h"
 #include "bench/meshes/meshes.h"
-#include "bench/results/results_folder.h"
-#include "bench/results/run_json.h"
-#include "bench/scenes/scene_source.h"
 #include "bench/support/files/standard_output.h"
-#include "bench/support/progress.h"
-#include "bench/support/system/denormals.h"
-#include "bench/support/system/interrupt.h"
 #include "bench/workload/paced_workload.h"
 
 namespace touchmark::bench::cli {
@@ -68,8 +64,8 @@ class ServoCommand {
   servo::ServoSettings settings_;
   contestants::CheckedSelectors selection_;
   std::string mesh_, trajectory_;
-  std::optional<results::ResultsFolder> folder_;
-  results::RunDescription description_;
+  workers::WorkerOptions workers_;
+  RunFrame frame_;
   servo::RealTimeHost host_;
   workload::Workload workload_;
 };
@@ -80,27 +76,25 @@ ServoCommand::ServoCommand(const ProgramContext& context, const ServoOptions& op
       core_(checked_core(options)),
       settings_(checked_settings(options, core_)),
       selection_(contestants::check(options.selectors, context.roster)),
-      mesh_(options.selectors.meshes.empty() ? meshes::default_mesh() : options.selectors.meshes.front()),
+      mesh_(mesh_of(options.selectors)),
       trajectory_(checked_trajectory(options)),
-      description_(results::begun_run(context.argc, context.argv)),
+      workers_(worker_options(options.workers)),
+      frame_(context, options.out),
       host_(servo::read_real_time_host(core_)),
       workload_(workload_by_time()) {
   if (settings_.proxy) settings_.proxy->radius = workload_.radius;
-  if (!options.out.empty()) folder_.emplace(options.out);
-  settings_.seed = description_.seed = selection_.seed;
-  description_.flushed_to_zero = support::restore_denormals();
-  description_.query = selection_.queries.front();
-  description_.core = core_;
-  description_.effort = {0, 0, 0, 0};
+  settings_.seed = frame_.description.seed = selection_.seed;
+  frame_.description.query = selection_.queries.front();
+  frame_.description.core = workers_.core = core_;
+  frame_.description.effort = {0, 0, 0, 0};
 }
 
 workload::Workload ServoCommand::workload_by_time() {
   const contestants::Selectors& selectors = options_.selectors;
   if (!selectors.scene.empty())
-    return workload::scene_workload_by_time(
-        scenes::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection_,
-        {trajectory_}, {settings_.rate_hz, settings_.ticks});
-  TriangleMesh mesh = meshes::load_mesh(mesh_, options_.selectors.normalize);
+    return workload::scene_workload_by_time(scene_of(selectors), selection_, {trajectory_},
+                                            {settings_.rate_hz, settings_.ticks});
+  TriangleMesh mesh = meshes::load_mesh(mesh_, selectors.normalize);
   static_cast<workload::Selection&>(selection_) =
       workload::selection_by_time(selection_, mesh, trajectory_, settings_.rate_hz);
   return workload::workload_by_time(results::without_directories(mesh_), std::move(mesh), selection_,
@@ -112,7 +106,7 @@ workload::Workload ServoCommand::workload_by_time() {
 void ServoCommand::name_commands(servo::ServoRun& run) const {
   if (settings_.proxy) return;  // a step follows from all goals before it
   const bool needs_file = workload::is_resampled_shape(trajectory_, settings_.rate_hz);
-  if (needs_file && !folder_) return;
+  if (needs_file && !frame_.folder) return;
   contestants::Selectors selectors = options_.selectors;
   if (!selection_.motion.rate_hz) selectors.motion.rate.clear();
   for (servo::ServoRow& row : run.rows()) {
@@ -127,7 +121,8 @@ void ServoCommand::name_commands(servo::ServoRun& run) const {
 }
 
 std::string ServoCommand::run_json(const servo::ServoRun& run) const {
-  auto json = nlohmann::ordered_json::parse(results::run_json(description_, workload_, run.contestants()));
+  auto json =
+      nlohmann::ordered_json::parse(results::run_json(frame_.description, workload_, run.contestants()));
   std::string scheduler, memory;
   for (const servo::ServoRow& row : run.rows()) {
     if (row.scheduler.empty()) continue;
@@ -152,39 +147,30 @@ std::string ServoCommand::run_json(const servo::ServoRun& run) const {
 }
 
 void ServoCommand::save(const servo::ServoRun& run) const {
-  if (!folder_) return;
-  folder_->write_file("servo.csv", servo::servo_csv(description_.run_id, settings_, run.rows()));
-  folder_->write_file("servo_histogram.csv", servo::histogram_csv(run.rows()));
-  folder_->write_file("servo_worst.csv", servo::worst_csv(workload_, run.rows()));
+  if (!frame_.folder) return;
+  frame_.folder->write_file("servo.csv", servo::servo_csv(frame_.description.run_id, settings_, run.rows()));
+  frame_.folder->write_file("servo_histogram.csv", servo::histogram_csv(run.rows()));
+  frame_.folder->write_file("servo_worst.csv", servo::worst_csv(workload_, run.rows()));
   if (workload::is_resampled_shape(trajectory_, settings_.rate_hz))
-    folder_->write_file("motion.csv", workload::motion_csv(workload_));
-  folder_->write_file("run.json", run_json(run));
+    frame_.folder->write_file("motion.csv", workload::motion_csv(workload_));
+  frame_.folder->write_file("run.json", run_json(run));
 }
 
 int ServoCommand::run() {
-  workers::WorkerOptions workers = worker_options(options_.workers);
-  workers.core = core_;
-  support::ProgressLine progress;
-  servo::ServoRun run(context_.roster, workload_, description_.query, selection_.contestants, settings_,
-                      workers);
+  servo::ServoRun run(context_.roster, workload_, frame_.description.query, selection_.contestants, settings_,
+                      workers_);
   name_commands(run);
-  support::watch_for_interrupts();
-  try {
-    run.verify([&](const std::string& contestant) { progress.show(contestant + ": verifying it"); });
-    run.run(
-        [&](std::uint64_t ticks) { progress.show(fmt::format("{} of {} ticks", ticks, settings_.ticks)); });
-  } catch (const support::Interrupted&) {
-    description_.finished = false;
-  }
-  progress.clear();
+  const bool finished = frame_.finishes([&] {
+    run.verify([&](const std::string& contestant) { frame_.progress.show(contestant + ": verifying it"); });
+    run.run([&](std::uint64_t ticks) {
+      frame_.progress.show(fmt::format("{} of {} ticks", ticks, settings_.ticks));
+    });
+  });
   support::StandardOutput out;
   out.write(servo::circumstances(settings_, workload_, core_, run.rows(), host_) +
             servo::loop_table(settings_, run.rows()) + servo::worst_ticks(workload_, run.rows()));
   save(run);
-  if (!description_.finished) {
-    fmt::print(stderr, "touchmark: interrupted; there is no verdict on fewer ticks than asked for\n");
-    return support::exit_interrupted;
-  }
+  if (!finished) return interrupted("there is no verdict on fewer ticks than asked for");
   out.write(servo::verdict_lines(settings_, run.rows()));
   switch (servo::verdict_on_all(run.rows())) {
     case servo::Verdict::holds:

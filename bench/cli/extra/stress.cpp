@@ -15,6 +15,7 @@
 #include "bench/cli/options.h"
 #include "bench/cli/plugin_option.h"
 #include "bench/cli/report_files.h"
+#include "bench/cli/run_frame.h"
 #include "bench/cli/single_step.h"
 #include "bench/cli/worker_options.h"
 #include "bench/contestants/roster.h"
@@ -22,14 +23,11 @@
 #include "bench/experiments/stress/stress_csv.h"
 #include "bench/experiments/stress/stress_report.h"
 #include "bench/experiments/stress/stress_run.h"
-#include "bench/results/results_folder.h"
 #include "bench/results/verification_report.h"
 #include "bench/support/checked.h"
 #include "bench/support/files/standard_output.h"
 #include "bench/support/numbers.h"
-#include "bench/support/progress.h"
 #include "bench/support/system/denormals.h"
-#include "bench/support/system/interrupt.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::cli {
@@ -83,28 +81,24 @@ class StressCommand {
  public:
   StressCommand(const ProgramContext& context, const StressOptions& options)
       : run_(context.roster, request_of(options, context.roster)),
-        description_(results::begun_run(context.argc, context.argv)),
+        frame_(context, options.out),
         junit_(options.reports.junit),
         markdown_(options.reports.markdown) {
-    if (!options.out.empty()) folder_.emplace(options.out);
-    description_.flushed_to_zero = support::restore_denormals();
-    description_.seed = run_.request().seed;
+    frame_.description.seed = run_.request().seed;
   }
 
   int run();
 
  private:
-  void report(bool finished);
+  void report();
 
   stress::StressRun run_;
-  std::optional<results::ResultsFolder> folder_;
-  results::RunDescription description_;
+  RunFrame frame_;
   ReportFile junit_, markdown_;
-  support::ProgressLine progress_;
 };
 
-void StressCommand::report(bool finished) {
-  progress_.clear();
+void StressCommand::report() {
+  const bool finished = frame_.description.finished;
   const std::string faults = results::list_of_failures(run_.faults(), faults_shown);
   const support::Table table = stress::stress_table(run_.scores());
   const std::string legend = stress::stress_legend(run_.scores());
@@ -114,22 +108,16 @@ void StressCommand::report(bool finished) {
   if (markdown_.wanted())
     markdown_.write(fmt::format("## touchmark stress{}\n\n{}{}{}", finished ? "" : " (interrupted)",
                                 table.markdown(), code_block(legend), code_block(faults)));
-  if (!folder_) return;
-  description_.finished = finished;
-  folder_->write_file("stress.csv", stress::stress_csv(description_.run_id, run_.scores()));
-  folder_->write_file("run.json", stress::stress_json(description_, run_));
+  if (!frame_.folder) return;
+  frame_.folder->write_file("stress.csv", stress::stress_csv(frame_.description.run_id, run_.scores()));
+  frame_.folder->write_file("run.json", stress::stress_json(frame_.description, run_));
 }
 
 int StressCommand::run() {
-  support::watch_for_interrupts();
-  try {
-    run_.run([&](const std::string& what) { progress_.show(what); });
-  } catch (const support::Interrupted&) {
-    report(false);
-    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", run_.scores().size());
-    return support::exit_interrupted;
-  }
-  report(true);
+  const bool finished =
+      frame_.finishes([this] { run_.run([this](const std::string& what) { frame_.progress.show(what); }); });
+  report();
+  if (!finished) return interrupted(run_.scores().size());
   const std::vector<results::Summary> summaries(run_.scores().begin(), run_.scores().end());
   return results::status_of(summaries, std::any_of(summaries.begin(), summaries.end(),
                                                    [](const results::Summary& one) { return one.broken; }));
@@ -137,6 +125,7 @@ int StressCommand::run() {
 
 /// "QUERY/MESH/COURSE/STEP": one answer of the only family, by the only contestant.
 void repeat_one(const StressOptions& options, const contestants::Roster& roster) {
+  support::restore_denormals();
   const stress::StressRequest request = request_of(options, roster);
   if (options.families.size() != 1 || options.selectors.detectors.size() != 1) {
     throw std::invalid_argument("--repeat needs exactly one --family and one --detector");
@@ -202,7 +191,6 @@ void add_stress(CLI::App& program, ProgramContext& context) {
                   "Example: touchmark stress --detector grid-group --detector bullet --family needles --out "
                   "results/today\n");
   command->final_callback([options, &context] {
-    support::restore_denormals();
     if (!options->repeat.empty()) return repeat_one(*options, context.roster);
     context.status = StressCommand(context, *options).run();
   });

@@ -12,14 +12,12 @@
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/extra/papers/paper_options.h"
 #include "bench/cli/options.h"
+#include "bench/cli/run_frame.h"
 #include "bench/experiments/papers/frontier.h"
 #include "bench/experiments/papers/tuning.h"
 #include "bench/meshes/meshes.h"
-#include "bench/results/results_folder.h"
 #include "bench/support/checked.h"
 #include "bench/support/files/standard_output.h"
-#include "bench/support/progress.h"
-#include "bench/support/system/denormals.h"
 #include "bench/support/system/interrupt.h"
 #include "bench/support/table.h"
 
@@ -137,24 +135,20 @@ std::string reference_note(const TuneOptions& options, const TriangleMesh& mesh,
   return text;
 }
 
-int run(const TuneOptions& options) {
+int run(const ProgramContext& context, const TuneOptions& options) {
   const double rate = support::checked_positive("--rate", options.rate);
   const TriangleMesh mesh = meshes::load_mesh(options.mesh);
   const papers::FrontierSettings settings = checked(options, mesh);
-  std::optional<results::ResultsFolder> folder;
-  if (!options.common.out.empty()) folder.emplace(options.common.out);
+  RunFrame frame(context, options.common.out);
   support::watch_for_interrupts();
-  support::restore_denormals();
-  support::ProgressLine progress;
-  const papers::LevelSearch search = papers::search_levels(
-      mesh, settings, rate, !options.levels.empty(), [&](const std::string& what) { progress.show(what); });
+  const papers::LevelSearch search =
+      papers::search_levels(mesh, settings, rate, !options.levels.empty(),
+                            [&](const std::string& what) { frame.progress.show(what); });
   const papers::FrontierResult& result = search.result;
-  progress.clear();
-  if (folder) folder->write_file("tune.csv", papers::frontier_table(result, mesh.diagonal()).csv());
-  if (!result.finished) {
-    fmt::print(stderr, "touchmark: interrupted; {} rows are kept\n", result.points.size());
-    return support::exit_interrupted;
-  }
+  frame.progress.clear();
+  if (frame.folder)
+    frame.folder->write_file("tune.csv", papers::frontier_table(result, mesh.diagonal()).csv());
+  if (!result.finished) return interrupted(fmt::format("{} rows are kept", result.points.size()));
   for (const std::string& what : result.left_out) fmt::print(stderr, "touchmark: left out: {}\n", what);
   const papers::Tuned tuned = papers::tune(result, rate);
   support::StandardOutput out;
@@ -193,7 +187,7 @@ void add_tune(CLI::App& program, ProgramContext& context) {
   add_paper_options(*command, options->common);
   command->footer(
       "Exit status 1: nothing tried holds the rate.\nExample: touchmark tune --rate 1000 --mesh bunny\n");
-  command->final_callback([options, &context] { context.status = run(*options); });
+  command->final_callback([options, &context] { context.status = run(context, *options); });
 }
 
 }  // namespace touchmark::bench::cli

@@ -12,18 +12,16 @@
 
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/options.h"
+#include "bench/cli/run_frame.h"
+#include "bench/cli/selected_workload.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/contestants/roster.h"
 #include "bench/experiments/update/update_row.h"
 #include "bench/experiments/update/update_run.h"
 #include "bench/meshes/meshes.h"
-#include "bench/results/results_folder.h"
-#include "bench/results/run_json.h"
 #include "bench/support/files/standard_output.h"
-#include "bench/support/progress.h"
-#include "bench/support/system/denormals.h"
-#include "bench/support/system/interrupt.h"
+#include "bench/support/split.h"
 #include "bench/trajectories/motion_path.h"
 
 namespace touchmark::bench::cli {
@@ -49,23 +47,6 @@ double checked_share(std::string_view text) {
   return value;
 }
 
-std::vector<double> checked_shares(std::string_view text) {
-  std::vector<double> shares;
-  for (;;) {
-    const std::size_t comma = text.find(',');
-    shares.push_back(checked_share(text.substr(0, comma)));
-    if (comma == std::string_view::npos) return shares;
-    text.remove_prefix(comma + 1);
-  }
-}
-
-contestants::CheckedSelectors checked(const contestants::Selectors& selectors,
-                                      const contestants::Roster& roster) {
-  contestants::CheckedSelectors selection = contestants::check(selectors, roster);
-  if (selectors.detectors.empty()) selection.contestants = roster.forms(&contestants::Forms::updated);
-  return selection;
-}
-
 std::string checked_trajectory(const std::vector<std::string>& names) {
   if (names.size() > 1)
     throw std::invalid_argument(
@@ -74,48 +55,40 @@ std::string checked_trajectory(const std::vector<std::string>& names) {
 }
 
 int run_update(const ProgramContext& context, const UpdateOptions& options) {
-  const contestants::CheckedSelectors selection = checked(options.selectors, context.roster);
-  const std::vector<double> shares = checked_shares(options.shares);
+  const contestants::CheckedSelectors selection =
+      contestants::check(options.selectors, context.roster, &contestants::Forms::updated);
+  std::vector<double> shares;
+  for (const std::string_view share : support::split(options.shares, ','))
+    shares.push_back(checked_share(share));
   const std::string trajectory = checked_trajectory(options.selectors.trajectories);
   workers::WorkerOptions workers = worker_options(options.workers);
   workers.calibrate_clock = false;
-  results::RunDescription description = results::begun_run(context.argc, context.argv);
-  description.flushed_to_zero = support::restore_denormals();
-  description.query = selection.queries.front();
-  description.seed = selection.seed;
-  description.core = workers.core = results::core_for_workers();
-  std::optional<results::ResultsFolder> folder;
-  if (!options.out.empty()) folder.emplace(options.out);
+  RunFrame frame(context, options.out);
+  frame.description.query = selection.queries.front();
+  frame.description.seed = selection.seed;
+  frame.description.core = workers.core = results::core_for_workers();
 
-  const std::string name =
-      options.selectors.meshes.empty() ? meshes::default_mesh() : options.selectors.meshes.front();
-  support::ProgressLine progress;
-  progress.show(fmt::format("{}: deforming it", results::without_directories(name)));
+  const std::string name = mesh_of(options.selectors);
+  frame.progress.show(fmt::format("{}: deforming it", results::without_directories(name)));
   update::UpdateRun run(context.roster, selection.contestants, selection, results::without_directories(name),
                         meshes::load_mesh(name, options.selectors.normalize), shares, trajectory, workers);
-  support::watch_for_interrupts();
   std::vector<update::UpdateRow> rows;
-  int status = support::exit_done;
-  try {
+  const bool finished = frame.finishes([&] {
     for (std::size_t i = 0; i < selection.contestants.size(); ++i) {
       const std::vector<update::UpdateRow> more = run.run(i, [&](double share) {
-        progress.show(fmt::format("{}, {:g} %: {}", run.workload().mesh_name, 100 * share,
-                                  selection.contestants[i].text()));
+        frame.progress.show(fmt::format("{}, {:g} %: {}", run.workload().mesh_name, 100 * share,
+                                        selection.contestants[i].text()));
       });
       rows.insert(rows.end(), more.begin(), more.end());
     }
-  } catch (const support::Interrupted&) {
-    status = support::exit_interrupted;
-    description.finished = false;
-  }
-  progress.clear();
+  });
   support::StandardOutput().write(update::update_table(rows));
-  if (folder) {
-    folder->write_file("update.csv", update::update_csv(rows));
-    folder->write_file("run.json", results::run_json(description, run.workload(), run.contestants()));
+  if (frame.folder) {
+    frame.folder->write_file("update.csv", update::update_csv(rows));
+    frame.folder->write_file("run.json",
+                             results::run_json(frame.description, run.workload(), run.contestants()));
   }
-  if (status == support::exit_interrupted)
-    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows.size());
+  int status = finished ? support::exit_done : interrupted(rows.size());
   for (const update::UpdateRow& row : rows) {
     const bool crashed = row.status.starts_with("crashed") &&
                          context.roster.parse(row.contestant()).claimed == Guarantee::exact;

@@ -221,6 +221,14 @@ TEST(Bench, NamesEachBadArgumentInOneLine) {
   expect_bad_input({"no-such-command"}, {"no-such-command"});
 }
 
+TEST(Program, LooksAtTheFolderBeforeItLoadsTheMesh) {
+  for (const char* command : {"bench", "verify", "choose", "servo", "update", "many"})
+    expect_bad_input({command, "--mesh", "no-such-mesh", "--out", "/dev/null"},
+                     {"--out \"/dev/null\" is not a folder"});
+  expect_bad_input({"bench", "--mesh", "no-such-mesh", "--out", "/dev/null", "--timeout", "0"},
+                   {"--timeout \"0\""});
+}
+
 TEST(Program, SaysWithoutACommandWhatItIsAndWhereToBegin) {
   const Outcome finished = run_touchmark({});
   EXPECT_EQ(finished.status, 2);

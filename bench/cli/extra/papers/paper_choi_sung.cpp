@@ -9,6 +9,7 @@
 #include "bench/cli/extra/papers/paper_options.h"
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
+#include "bench/cli/run_frame.h"
 #include "bench/experiments/papers/choi_sung/choi_sung.h"
 #include "bench/experiments/papers/choi_sung/choi_sung_models.h"
 #include "bench/experiments/papers/choi_sung/choi_sung_report.h"
@@ -84,13 +85,13 @@ papers::ContactLevelSettings contact_level_settings(const papers::ChoiSungSettin
 
 class Run {
  public:
-  Run(const ChoiSungOptions& options, papers::PaperMesh mesh)
-      : mesh_(std::move(mesh)),
+  explicit Run(const ChoiSungOptions& options)
+      : mesh_(papers::choi_sung_mesh(options.mesh)),
         settings_(checked(options, mesh_.mesh)),
         frontier_(frontier_settings(settings_, mesh_.mesh, options.common.quick)),
         contact_levels_(contact_level_settings(settings_, options.common.quick)),
-        models_(options.common.quick ? std::vector<papers::Model>() : papers::choi_sung_models()),
-        folder_(options.common.out) {}
+        folder_(options.common.out),
+        models_(options.common.quick ? std::vector<papers::Model>() : papers::choi_sung_models()) {}
 
   int run() {
     support::watch_for_interrupts();
@@ -115,12 +116,7 @@ class Run {
       papers::add_models(models_, settings_, mesh_.mesh.diagonal(), result, print_progress);
     progress_.clear();
     write_tables(result, frontier, levels);
-    if (!levels.finished) {
-      fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n",
-                 result.rows.size() + frontier.points.size());
-      return support::exit_interrupted;
-    }
-    return finish(result);
+    return levels.finished ? finish(result) : interrupted(result.rows.size() + frontier.points.size());
   }
 
  private:
@@ -163,8 +159,8 @@ class Run {
   papers::ChoiSungSettings settings_;
   papers::FrontierSettings frontier_;
   papers::ContactLevelSettings contact_levels_;
-  std::vector<papers::Model> models_;
   results::ResultsFolder folder_;
+  std::vector<papers::Model> models_;
   support::ProgressLine progress_;
 };
 
@@ -181,10 +177,7 @@ void add_paper_choi_sung(CLI::App& paper_command, ProgramContext& context) {
             "distance: mesh units or % of the box diagonal");
   add_paper_options(*command, options->common);
   command->footer("Example: touchmark paper choi-sung-2017 --out results/papers/choi-sung-2017\n");
-  command->final_callback([options, &context] {
-    Run run(*options, papers::choi_sung_mesh(options->mesh));
-    context.status = run.run();
-  });
+  command->final_callback([options, &context] { context.status = Run(*options).run(); });
 }
 
 }  // namespace touchmark::bench::cli

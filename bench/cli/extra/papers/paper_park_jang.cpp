@@ -12,6 +12,7 @@
 #include "bench/cli/extra/papers/paper_options.h"
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
+#include "bench/cli/run_frame.h"
 #include "bench/experiments/papers/park_jang/park_jang.h"
 #include "bench/experiments/papers/park_jang/park_jang_pictures.h"
 #include "bench/results/results_folder.h"
@@ -70,10 +71,7 @@ int run(const ParkJangOptions& options) {
   folder.write_file("best.csv", papers::park_jang_best_table(result).csv());
   folder.write_file("numbers.csv", papers::claims_table(papers::park_jang_claims(result)).csv());
   folder.write_file("report.md", papers::park_jang_report(meshes, settings, result));
-  if (!result.finished) {
-    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", result.rows.size());
-    return support::exit_interrupted;
-  }
+  if (!result.finished) return interrupted(result.rows.size());
   fmt::print("{}\n", papers::summary(papers::park_jang_claims(result)));
   if (result.answers_agree) return support::exit_done;
   fmt::print(stderr, "touchmark: the forms answer differently on some mesh (times.csv)\n");
