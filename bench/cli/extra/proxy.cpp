@@ -49,8 +49,8 @@ proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::R
   if (request.families.empty() && options.mesh.empty()) {
     for (const proxy::Family& family : proxy::families()) request.families.push_back(&family);
   }
-  for (const std::string& name : options.methods) request.methods.push_back(proxy::method_named(name));
-  if (request.methods.empty()) request.methods = proxy::all_methods(roster);
+  for (const std::string& name : options.methods) request.methods.push_back(proxies::method_named(name));
+  if (request.methods.empty()) request.methods = proxies::all_methods(roster);
   request.ticks =
       support::checked_count("--ticks", options.ticks.empty() ? "100000" : options.ticks, 1, max_ticks);
   request.seed = support::checked_count("--seed", options.seed, 0, UINT32_MAX);
@@ -75,7 +75,7 @@ proxy::Course course_of(const ProxyOptions& options, std::uint64_t seed) {
   motion.radius = length.in_mesh_units(mesh);
   trajectories::Trajectory trajectory = trajectories::make_trajectory(options.trajectory, mesh, motion);
   const std::vector<Vec3>& goals = trajectory.positions;
-  const Vec3 start = proxy::free_start(proxy::WayOracle(mesh), goals, motion.radius);
+  const Vec3 start = proxies::free_start(proxies::WayOracle(mesh), goals, motion.radius);
   return {trajectory.name, std::move(mesh), motion.radius, 0, start, std::move(trajectory.positions)};
 }
 
@@ -149,9 +149,9 @@ int ProxyCommand::run() {
 
 std::string lists() {
   std::string list = "Methods:\n";
-  for (const proxy::MethodInfo& method : proxy::methods()) {
+  for (const proxies::MethodInfo& method : proxies::methods()) {
     list += fmt::format("  {:<20}{}\n", method.name, method.meaning);
-    for (const proxy::MethodOption& option : method.options)
+    for (const proxies::MethodOption& option : method.options)
       list += fmt::format("    {}={}: {}\n", option.key, option.default_value, option.meaning);
   }
   list += "Families:\n";

@@ -14,7 +14,7 @@
 
 namespace touchmark::bench::experiments::proxy {
 
-using namespace proxies;
+using proxies::Course;
 
 /// The usual size of a course's meshes: as of what fits under a haptic device, in metres.
 inline constexpr double course_size = 0.1;

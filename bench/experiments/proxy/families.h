@@ -11,7 +11,7 @@
 
 namespace touchmark::bench::experiments::proxy {
 
-using namespace proxies;
+using proxies::Course;
 
 /// Makes courses of about `ticks` in all. Equal seeds and numbers give equal ones, on every machine.
 using MakeCourses = std::vector<Course> (*)(std::uint64_t seed, std::size_t ticks);

@@ -31,19 +31,19 @@ std::string where(const Course& course, std::size_t tick) {
 void run_course(const contestants::Roster& roster, const Course& course, const std::vector<Vec3>& optima,
                 const MethodSpec& method, const Coupling& coupling, const std::string& detector, Tally& tally,
                 const Seen& seen) {
-  auto oracle = std::make_unique<const WayOracle>(course.mesh);
+  auto oracle = std::make_unique<const proxies::WayOracle>(course.mesh);
   const std::vector<Vec3> places = course.places ? course.places(0) : std::vector<Vec3>();
-  const std::unique_ptr<ProxyMethod> proxy =
+  const std::unique_ptr<proxies::ProxyMethod> proxy =
       method.info->make({roster, course.mesh, coupling, method.values, detector, course.bodies, places});
   proxy->place(course.start);
-  Judge judge(course, optima, coupling, tally);
+  proxies::Judge judge(course, optima, coupling, tally);
   judge.see(*oracle);
   Step step;
   for (std::size_t tick = 0; tick < course.goals.size(); ++tick) {
     if (course.update_every > 0 && tick > 0 && tick % course.update_every == 0) {
       const std::size_t change = tick / course.update_every;
       const TriangleMesh mesh = course.moved(change);
-      auto next = std::make_unique<const WayOracle>(mesh);
+      auto next = std::make_unique<const proxies::WayOracle>(mesh);
       if (course.places)
         proxy->move(course.places(change), mesh);
       else

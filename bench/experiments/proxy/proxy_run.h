@@ -15,7 +15,7 @@
 
 namespace touchmark::bench::experiments::proxy {
 
-using namespace proxies;
+using proxies::Course, proxies::MethodSpec, proxies::Step, proxies::Tally;
 
 struct ProxyRequest {
   std::vector<const Family*> families;

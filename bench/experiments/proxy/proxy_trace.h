@@ -9,7 +9,7 @@
 
 namespace touchmark::bench::experiments::proxy {
 
-using namespace proxies;
+using proxies::Step;
 
 /// Columns step, segment, goal_x, goal_y, goal_z, proxy_x, proxy_y, proxy_z, contacts, force_x, force_y,
 /// force_z, ns. Steps count from 0, and each has a row, also where the proxy rests; `proxy` is where the

@@ -10,7 +10,7 @@
 
 namespace touchmark::bench::experiments::proxy {
 
-using namespace proxies;
+using proxies::Course, proxies::MethodSpec;
 
 /// A ball of 2 mm over a block with a groove and a wall of half a millimetre: it is pressed below the
 /// surface, drawn along under the groove, and jerked through the wall. All happens in the plane y = 0.

@@ -18,7 +18,7 @@ TEST(ProxyCourses, StartWhereTheBallIsFree) {
   for (const Family& family : families()) {
     for (std::uint64_t seed = 1; seed < 4; ++seed) {
       for (const Course& course : family.make(seed, ticks)) {
-        const WayOracle oracle(course.mesh);
+        const proxies::WayOracle oracle(course.mesh);
         EXPECT_FALSE(oracle.is_within(course.start, course.start, course.radius))
             << family.name << ": " << course.name;
         EXPECT_GE(course.goals.size(), 50U) << family.name << ": " << course.name;
@@ -54,7 +54,7 @@ TEST(ProxyCourses, KnowTheOptimumOfEveryTickWhereFreeSpaceIsConvex) {
     for (const Course& course : family_named(name).make(2, ticks)) {
       const std::vector<Vec3> optima = optima_of(course);
       ASSERT_EQ(optima.size(), course.goals.size()) << name << ": " << course.name;
-      const WayOracle oracle(course.mesh);
+      const proxies::WayOracle oracle(course.mesh);
       for (const Vec3& optimum : optima)
         EXPECT_LE(oracle.shortfall(optimum, course.radius), 1e-15) << name << ": " << course.name;
     }
@@ -87,7 +87,7 @@ TEST(ProxyCourses, AmongBodiesHaveTheMovedBodiesForTheirMesh) {
 std::vector<Score> scores_of(const std::string& method, const std::string& detector = "sphere-cluster") {
   ProxyRequest request;
   for (const Family& family : families()) request.families.push_back(&family);
-  request.methods.push_back(method_named(method));
+  request.methods.push_back(proxies::method_named(method));
   request.ticks = ticks * families().size();
   request.detector = detector;
   ProxyRun run(contestants::roster(), request);
@@ -156,10 +156,10 @@ TEST(ProxyMethods, KeepAnEpsilonWhereTheyAreSaidTo) {
 }
 
 TEST(ProxyMethods, RefuseWhatIsNoMethodOrOption) {
-  EXPECT_THROW(method_named("god-objects"), std::invalid_argument);
-  EXPECT_THROW(method_named("penalty:epsilon=1"), std::invalid_argument);
-  EXPECT_THROW(method_named("finger-proxy:epsilon=-1"), std::invalid_argument);
-  EXPECT_EQ(method_named("finger-proxy:epsilon=1e-3").values.number("epsilon"), 1e-3);
+  EXPECT_THROW(proxies::method_named("god-objects"), std::invalid_argument);
+  EXPECT_THROW(proxies::method_named("penalty:epsilon=1"), std::invalid_argument);
+  EXPECT_THROW(proxies::method_named("finger-proxy:epsilon=-1"), std::invalid_argument);
+  EXPECT_EQ(proxies::method_named("finger-proxy:epsilon=1e-3").values.number("epsilon"), 1e-3);
 }
 
 }  // namespace
