@@ -6,76 +6,16 @@
 #include <utility>
 
 #include "bench/oracle/exact/exact_integers.h"
+#include "bench/oracle/exact/feet.h"
 
 namespace touchmark::bench::oracle {
 namespace {
 
+using exact::Foot;
 using exact::Grid;
 using exact::Integer;
+using exact::Square;
 using exact::Vector;
-
-/// A squared distance, numerator / denominator, in squared grid units.
-struct Square {
-  Integer numerator, denominator;
-
-  bool operator<(const Square& other) const {
-    return Integer(numerator * other.denominator) < Integer(other.numerator * denominator);
-  }
-};
-
-/// The nearest point of a triangle, relative to the query point, lies along `direction` (any length, zero for
-/// distance zero); it is direction * along / across.
-struct Foot {
-  Square square;
-  Vector direction;
-  Integer along, across;
-};
-
-Foot at_corner(const Vector& w) { return {{dot(w, w), 1}, w, 1, 1}; }
-
-/// On the segment from w to v; a segment of no length is its corner.
-Foot on_segment(const Vector& w, const Vector& v) {
-  const Vector edge = v - w;
-  const Integer length = dot(edge, edge);
-  const Integer along = -dot(w, edge);
-  if (along <= 0) return at_corner(w);
-  if (along >= length) return at_corner(v);
-  const Vector moment = cross(w, edge);
-  // w + (along / length) edge, times length.
-  const Vector a = scaled(length, w), b = scaled(along, edge);
-  return {
-      {dot(moment, moment), length}, {Integer(a.x + b.x), Integer(a.y + b.y), Integer(a.z + b.z)}, 1, length};
-}
-
-/// On the face's inside or border, if the query point is over it.
-std::optional<Foot> on_face(const std::array<Vector, 3>& w) {
-  const Vector normal = cross(w[1] - w[0], w[2] - w[0]);
-  if (is_zero(normal)) return std::nullopt;
-  for (std::size_t i = 0; i < 3; ++i) {
-    // The edge's normal in the plane, (w_j - w_i) x (0 - w_i), is w_i x w_j.
-    if (dot(cross(w[i], w[(i + 1) % 3]), normal) < 0) return std::nullopt;
-  }
-  const Integer height = dot(w[0], normal);
-  const Integer area = dot(normal, normal);
-  return Foot{{Integer(height * height), area}, normal, height, area};
-}
-
-/// `w` are the corners relative to the query point.
-Foot nearest_on(const std::array<Vector, 3>& w) {
-  if (std::optional<Foot> face = on_face(w)) return *std::move(face);
-  Foot best = on_segment(w[0], w[1]);
-  for (std::size_t i = 1; i < 3; ++i) {
-    Foot other = on_segment(w[i], w[(i + 1) % 3]);
-    if (other.square < best.square) best = std::move(other);
-  }
-  return best;
-}
-
-template <class AnyTriangle>
-std::array<Vector, 3> relative(const Grid& grid, const Vector& origin, const AnyTriangle& t) {
-  const std::array<Vector, 3> corners = grid(t);
-  return {corners[0] - origin, corners[1] - origin, corners[2] - origin};
-}
 
 std::size_t bits(const Integer& x) { return mpz_sizeinbase(x.get_mpz_t(), 2); }
 
@@ -142,8 +82,7 @@ Vec3 absolute_position(const Vector& origin, const Foot& foot, int exponent) {
 
 template <class AnyTriangle>
 ExactNearest nearest_of(const Vec3& point, std::span<const AnyTriangle> triangles) {
-  Grid grid;
-  grid.add(point);
+  Grid grid(point);
   for (const AnyTriangle& t : triangles) grid.add(t);
   const Vector origin = grid(point);
   ExactNearest nearest;
@@ -222,8 +161,7 @@ Vec3 across(const Vec3& axis) {
 }
 
 ExactNearest nearest_of_surfaces(const Vec3& point, std::span<const PlacedTriangle> triangles) {
-  Grid grid;
-  grid.add(point);
+  Grid grid(point);
   for (const PlacedTriangle& t : triangles) grid.add(t);
   const Vector origin = grid(point);
   ExactNearest nearest;
@@ -252,14 +190,9 @@ ExactNearest nearest_of_surfaces(const Vec3& point, std::span<const PlacedTriang
 template <class AnyTriangle>
 std::strong_ordering compare(const Vec3& point, const AnyTriangle& triangle, double radius, double more) {
   if (std::isinf(radius)) return std::strong_ordering::less;
-  Grid grid;
-  grid.add(point);
-  grid.add(triangle);
-  grid.add(radius);
-  grid.add(more);
-  const Foot foot = nearest_on(relative(grid, grid(point), triangle));
+  const Grid grid(point, triangle, radius, more);
   const Integer r = grid(radius) + grid(more);
-  return exact::order(foot.square.numerator, Integer(r * r * foot.square.denominator));
+  return exact::order(nearest_on(relative(grid, grid(point), triangle)).square, Integer(r * r));
 }
 
 }  // namespace

@@ -59,6 +59,11 @@ inline Parts parts_of(double x) {
 /// The coarsest power of two of which every number put in is a multiple.
 class Grid {
  public:
+  template <class... Parts>
+  explicit Grid(const Parts&... parts) {
+    (add(parts), ...);
+  }
+
   void add(double x) { exponent_ = std::min(exponent_, parts_of(x).exponent); }
   void add(const Vec3& v) {
     for (const double x : {v.x(), v.y(), v.z()}) add(x);

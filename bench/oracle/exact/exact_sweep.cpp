@@ -1,11 +1,11 @@
 // The distance between a segment and a triangle is zero where they cross, and else lies between an end of the
 // segment and the triangle, a corner and the segment, or the insides of the segment and of an edge.
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "bench/oracle/exact/exact_distance.h"
 #include "bench/oracle/exact/exact_integers.h"
+#include "bench/oracle/exact/feet.h"
 
 namespace touchmark::bench::oracle {
 namespace {
@@ -57,35 +57,13 @@ std::strong_ordering compare_inside(const Configuration& c, const Vector& w, con
 
 /// How the distance between a corner and the path compares.
 std::strong_ordering compare_corner(const Configuration& c, const Vector& w) {
-  const Integer along = dot(w, c.path), length = dot(c.path, c.path);
-  if (along <= 0) return exact::order(dot(w, w), c.squared_radius);
-  if (along >= length) {
-    const Vector to_end = w - c.path;
-    return exact::order(dot(to_end, to_end), c.squared_radius);
-  }
-  const Vector moment = cross(w, c.path);
-  return exact::order(dot(moment, moment), Integer(c.squared_radius * length));
+  return exact::order(on_segment(Vector{0, 0, 0} - w, c.path - w).square, c.squared_radius);
 }
 
-/// How the distance between the path's end and the triangle compares: over the face to the plane, else to the
-/// nearest of its sides.
+/// How the distance between the path's end and the triangle compares.
 std::strong_ordering compare_end(const Configuration& c) {
-  const std::array<Vector, 3> w = {c.w[0] - c.path, c.w[1] - c.path, c.w[2] - c.path};
-  const Vector normal = cross(w[1] - w[0], w[2] - w[0]);
-  bool over_face = !exact::is_zero(normal);
-  for (std::size_t i = 0; i < 3 && over_face; ++i) over_face = dot(cross(w[i], w[(i + 1) % 3]), normal) >= 0;
-  if (over_face) {
-    const Integer height = dot(w[0], normal);
-    return exact::order(Integer(height * height), Integer(c.squared_radius * dot(normal, normal)));
-  }
-  std::strong_ordering least = std::strong_ordering::greater;
-  for (std::size_t i = 0; i < 3; ++i) {
-    // From a corner's point of view the side is a path, and the end a corner.
-    const Vector& from = w[i];
-    const Configuration side{w[(i + 1) % 3] - from, {}, c.squared_radius};
-    least = exact::lesser(least, compare_corner(side, Vector{0, 0, 0} - from));
-  }
-  return least;
+  return exact::order(exact::nearest_on({c.w[0] - c.path, c.w[1] - c.path, c.w[2] - c.path}).square,
+                      c.squared_radius);
 }
 
 /// The part of the path as seen from its start, on a grid as much finer as the fraction's last digit asks
@@ -93,20 +71,15 @@ std::strong_ordering compare_end(const Configuration& c) {
 template <class AnyTriangle>
 Configuration part_of(const Vec3& from, const Vec3& to, double fraction, const AnyTriangle& triangle,
                       double radius, double more) {
-  Grid grid;
-  grid.add(from);
-  grid.add(to);
-  grid.add(triangle);
-  grid.add(radius);
-  grid.add(more);
+  const Grid grid(from, to, triangle, radius, more);
   const exact::Parts parts = exact::parts_of(fraction);
   Integer part(static_cast<long>(parts.mantissa)), fine(1);
   if (parts.mantissa != 0 && parts.exponent < 0) fine <<= static_cast<mp_bitcnt_t>(-parts.exponent);
   const Vector origin = grid(from);
   const Integer r = fine * (grid(radius) + grid(more));
   Configuration c{scaled(part, grid(to) - origin), {}, Integer(r * r)};
-  const std::array<Vector, 3> corners = grid(triangle);
-  for (std::size_t i = 0; i < 3; ++i) c.w[i] = scaled(fine, corners[i] - origin);
+  const std::array<Vector, 3> corners = relative(grid, origin, triangle);
+  for (std::size_t i = 0; i < 3; ++i) c.w[i] = scaled(fine, corners[i]);
   return c;
 }
 
@@ -121,39 +94,14 @@ template <class AnyTriangle>
 std::strong_ordering compare_part(const Vec3& from, const Vec3& to, double fraction,
                                   const AnyTriangle& triangle, double radius, double more) {
   if (std::isinf(radius)) return std::strong_ordering::less;
+  std::strong_ordering least = compare_distance(from, triangle, radius, more);
+  if (least < 0) return least;
   const Configuration c = part_of(from, to, fraction, triangle, radius, more);
-  std::strong_ordering least = exact::lesser(compare_distance(from, triangle, radius, more), compare_end(c));
+  least = exact::lesser(least, compare_end(c));
   if (cross_through_the_face(c)) least = exact::lesser(least, exact::order(Integer(0), c.squared_radius));
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3 && least >= 0; ++i) {
     least = exact::lesser(least, compare_corner(c, c.w[i]));
     least = exact::lesser(least, compare_inside(c, c.w[i], c.w[(i + 1) % 3]));
-  }
-  return least;
-}
-
-template <class AnyTriangle>
-std::strong_ordering compare_segment(const Vec3& from, const Vec3& to, const AnyTriangle& triangle,
-                                     double radius, double more) {
-  if (std::isinf(radius)) return std::strong_ordering::less;
-  std::strong_ordering least = exact::lesser(compare_distance(from, triangle, radius, more),
-                                             compare_distance(to, triangle, radius, more));
-  if (least == std::strong_ordering::less) return least;
-  Grid grid;
-  grid.add(from);
-  grid.add(to);
-  grid.add(triangle);
-  grid.add(radius);
-  grid.add(more);
-  const Vector origin = grid(from);
-  const Integer r = grid(radius) + grid(more);
-  const std::array<Vector, 3> corners = grid(triangle);
-  const Configuration c{
-      grid(to) - origin, {corners[0] - origin, corners[1] - origin, corners[2] - origin}, Integer(r * r)};
-  if (cross_through_the_face(c)) return exact::lesser(least, exact::order(Integer(0), c.squared_radius));
-  for (std::size_t i = 0; i < 3; ++i) {
-    least = exact::lesser(least, compare_corner(c, c.w[i]));
-    least = exact::lesser(least, compare_inside(c, c.w[i], c.w[(i + 1) % 3]));
-    if (least == std::strong_ordering::less) return least;
   }
   return least;
 }
@@ -180,11 +128,11 @@ std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, dou
 
 std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const Triangle& triangle,
                                               double radius, double more) {
-  return compare_segment(from, to, triangle, radius, more);
+  return compare_part(from, to, 1, triangle, radius, more);
 }
 std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to,
                                               const PlacedTriangle& triangle, double radius, double more) {
-  return compare_segment(from, to, triangle, radius, more);
+  return compare_part(from, to, 1, triangle, radius, more);
 }
 
 }  // namespace touchmark::bench::oracle

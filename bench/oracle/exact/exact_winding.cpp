@@ -59,9 +59,7 @@ enum class Meeting { none, outwards, inwards, edge };
 /// How the ray meets a triangle that the point is not on.
 Meeting meeting(const Triangle& t, const Vec3& p, const Direction& direction) {
   if (surely_missed(t, p, direction)) return Meeting::none;
-  Grid grid;
-  grid.add(p);
-  grid.add(t);
+  const Grid grid(p, t);
   const Vector origin = grid(p);
   const std::array<Vector, 3> w = {grid(t[0]) - origin, grid(t[1]) - origin, grid(t[2]) - origin};
   const Vector along{Integer(direction[0]), Integer(direction[1]), Integer(direction[2])};
