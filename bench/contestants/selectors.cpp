@@ -47,8 +47,9 @@ CheckedSelectors check(const Selectors& selectors, const Roster& roster, Variety
   } else {
     selection.queries.push_back(checked_query(selectors.query));
   }
-  selection.radius = support::checked_length("--radius", selectors.radius);
-  if (!selectors.reach.empty()) selection.reach = support::checked_length("--reach", selectors.reach);
+  selection.radius = support::checked_length("--radius", selectors.radius, support::Infinity::allowed);
+  if (!selectors.reach.empty())
+    selection.reach = support::checked_length("--reach", selectors.reach, support::Infinity::allowed);
   if (!selectors.steps.empty())
     selection.steps = support::checked_count("--steps", selectors.steps, 1, max_steps);
   selection.motion = trajectories::parse_motion_options(selectors.motion.columns, selectors.motion.scale,

@@ -40,25 +40,22 @@ double checked_number(std::string_view option, std::string_view text, Zero zero,
   return *number;
 }
 
-double checked_positive(std::string_view option, std::string_view text) {
+double checked_positive(std::string_view option, std::string_view text, Infinity infinity) {
   const std::optional<double> number = parse_number(text);
-  if (!number || !(*number > 0) || !std::isfinite(*number)) throw bad_value(option, text, "a number above 0");
+  const bool finite = infinity == Infinity::refused;
+  if (!number || !(*number > 0) || (finite && std::isinf(*number)))
+    throw bad_value(option, text, finite ? "a number above 0" : "a number above 0, or inf");
   return *number;
 }
 
-Length checked_length(std::string_view option, std::string_view text) {
+Length checked_length(std::string_view option, std::string_view text, Infinity infinity) {
   const std::optional<Length> length = parse_length(text);
-  if (!length)
-    throw bad_value(option, text,
-                    "a length: 0 or more in mesh units, or in percent of the box diagonal, as 0.5%");
-  return *length;
-}
-
-Length checked_finite_length(std::string_view option, std::string_view text) {
-  const std::optional<Length> length = parse_length(text);
-  if (!length || !std::isfinite(length->value))
-    throw bad_value(option, text,
-                    "a finite length: 0 or more in mesh units, or in percent of the box diagonal, as 0.5%");
+  const bool finite = infinity == Infinity::refused;
+  if (!length || (finite && std::isinf(length->value)))
+    throw bad_value(
+        option, text,
+        fmt::format("a {}length: 0 or more in mesh units, or in percent of the box diagonal, as 0.5%",
+                    finite ? "finite " : ""));
   return *length;
 }
 

@@ -27,11 +27,12 @@ enum class Zero { allowed, refused };
 /// Returns a number above 0, or 0 where it is allowed, and at most `most`.
 double checked_number(std::string_view option, std::string_view text, Zero zero, double most);
 
-/// Returns a finite number above 0.
-double checked_positive(std::string_view option, std::string_view text);
+enum class Infinity { allowed, refused };
+/// Returns a number above 0.
+double checked_positive(std::string_view option, std::string_view text,
+                        Infinity infinity = Infinity::refused);
 
-/// Returns a length of 0 or more, also an infinite one.
-Length checked_length(std::string_view option, std::string_view text);
-Length checked_finite_length(std::string_view option, std::string_view text);
+/// Returns a length of 0 or more.
+Length checked_length(std::string_view option, std::string_view text, Infinity infinity = Infinity::refused);
 
 }  // namespace touchmark::bench::support

@@ -28,4 +28,9 @@ inline std::optional<Length> parse_length(std::string_view text) noexcept {
   return Length{*value, percent};
 }
 
+/// Returns a share, 0.1 as well as 10%. What is no share of 0 or more is 0, which no caller allows.
+inline double parse_share(std::string_view text) noexcept {
+  return parse_length(text).value_or(Length{}).along(1);
+}
+
 }  // namespace touchmark::bench::support

@@ -7,20 +7,11 @@
 #include <limits>
 #include <optional>
 #include <string_view>
-#include <system_error>
+
+#include "core/named/parsed.h"
 
 namespace touchmark::named {
 namespace {
-
-/// The whole text as a number, or nothing.
-template <class Number>
-std::optional<Number> parsed(std::string_view text) {
-  Number number{};
-  const char* const end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || stopped != end) return std::nullopt;
-  return number;
-}
 
 /// A finite number of 0 or more, or nothing.
 std::optional<double> parsed_size(std::string_view text) {

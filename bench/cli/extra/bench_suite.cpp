@@ -23,6 +23,7 @@
 #include "bench/meshes/meshes.h"
 #include "bench/results/report_table.h"
 #include "bench/results/results_csv.h"
+#include "bench/support/checked.h"
 #include "bench/support/files/standard_output.h"
 #include "bench/support/numbers.h"
 #include "bench/support/system/interrupt.h"
@@ -61,7 +62,8 @@ std::size_t checked_cells(const std::string& text) {
 Extent extent_of(const SuiteOptions& options) {
   Extent extent = options.quick ? quick_extent : usual_extent;
   if (!options.cells.empty()) extent.cells = checked_cells(options.cells);
-  if (!options.minutes.empty()) extent.minutes = support::positive_number("--minutes", options.minutes);
+  if (!options.minutes.empty())
+    extent.minutes = support::checked_positive("--minutes", options.minutes, support::Infinity::allowed);
   return extent;
 }
 

@@ -21,15 +21,11 @@ namespace {
 constexpr double max_rate_hz = 100'000;
 
 /// 10% or 0.1.
-double checked_share(std::string text) {
-  const std::string given = text;
-  const bool percent = text.ends_with('%');
-  if (percent) text.pop_back();
-  const std::optional<double> value = support::parse_number(text);
-  const double share = value.value_or(0) / (percent ? 100 : 1);
+double checked_share(const std::string& text) {
+  const double share = support::parse_share(text);
   if (!(share > 0) || share > 1)
     throw std::invalid_argument(
-        fmt::format("--share \"{}\" is not a part of a tick: above 0 and at most 100%, or 1", given));
+        fmt::format("--share \"{}\" is not a part of a tick: above 0 and at most 100%, or 1", text));
   return share;
 }
 

@@ -25,8 +25,7 @@ Example: touchmark gate --mesh part.stl --trajectory hand.csv --detector grid-gr
 }  // namespace
 
 double checked_tolerance(const std::string& text) {
-  const std::optional<support::Length> tolerance = support::parse_length(text);
-  const double value = tolerance ? (tolerance->percent ? tolerance->value / 100 : tolerance->value) : 0;
+  const double value = support::parse_share(text);
   if (!(value > 0 && value < 1))
     throw std::invalid_argument(fmt::format("--tolerance \"{}\" is not above 0 and below 100%, as 7%", text));
   return value;

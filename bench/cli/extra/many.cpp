@@ -87,7 +87,7 @@ ManySettings checked(const ManyCommandOptions& options, const contestants::Roste
 
 int run_many(const ProgramContext& context, const ManyCommandOptions& options) {
   const ManySettings settings = checked(options, context.roster);
-  const support::Length reach_text = support::checked_finite_length("--reach", options.reach);
+  const support::Length reach_text = support::checked_length("--reach", options.reach);
   const std::string name = options.mesh.empty() ? meshes::default_mesh() : options.mesh;
   RunFrame frame(context, options.out);
   frame.progress.show(fmt::format("{}: building", name));

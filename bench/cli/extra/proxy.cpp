@@ -68,7 +68,7 @@ proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::R
 /// The user's own mesh and motion.
 proxy::Course course_of(const ProxyOptions& options, std::uint64_t seed) {
   TriangleMesh mesh = meshes::load_mesh(options.mesh, false);
-  const support::Length length = support::checked_finite_length("--radius", options.radius);
+  const support::Length length = support::checked_length("--radius", options.radius);
   trajectories::TrajectoryOptions motion;
   if (!options.ticks.empty()) motion.steps = support::checked_count("--ticks", options.ticks, 1, max_ticks);
   motion.seed = seed;

@@ -28,8 +28,8 @@
 #include "bench/meshes/meshes.h"
 #include "bench/results/report_table.h"
 #include "bench/results/results_csv.h"
+#include "bench/support/checked.h"
 #include "bench/support/files/standard_output.h"
-#include "bench/support/numbers.h"
 #include "bench/support/system/available_memory.h"
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/query_name.h"
@@ -111,7 +111,7 @@ ScaleRun::ScaleRun(const ProgramContext& context, const ScaleOptions& options)
     : roster_(context.roster),
       options_(options),
       selection_(contestants::check(options.selectors, context.roster, &contestants::Forms::scaled)),
-      limit_s_(support::positive_number("--limit-seconds", options.limit)),
+      limit_s_(support::checked_positive("--limit-seconds", options.limit, support::Infinity::allowed)),
       shrinks_(checked_shrinks(options.shrink)),
       meshes_(scaling::meshes_of_sizes(or_else(options.selectors.meshes, {"noisy-sphere"}), options.sizes,
                                        options.quick ? quick_sizes : default_sizes)),

@@ -11,8 +11,8 @@
 #include "bench/contestants/roster.h"
 #include "bench/experiments/scaling/body_run.h"
 #include "bench/experiments/scaling/mesh_sizes.h"
+#include "bench/support/checked.h"
 #include "bench/support/files/standard_output.h"
-#include "bench/support/numbers.h"
 
 namespace touchmark::bench::cli {
 
@@ -70,7 +70,8 @@ int status_of(const std::vector<scaling::BodyRow>& rows, const contestants::Rost
 
 int run_scale_bodies(const ProgramContext& context, const ScaleBodiesOptions& options) {
   refuse_what_is_of_meshes(options.selectors);
-  const double limit_s = support::positive_number("--limit-seconds", options.limit);
+  const double limit_s =
+      support::checked_positive("--limit-seconds", options.limit, support::Infinity::allowed);
   const std::vector<std::size_t> sizes = sizes_of(options);
   std::vector<contestants::ContestantSpec> contestants =
       contestants_of(options.selectors.detectors, context.roster);

@@ -48,7 +48,7 @@ std::vector<SubdivisionMethod> checked_methods(const std::vector<std::string>& n
 std::vector<double> checked_clusterings(const std::vector<std::string>& texts, const TriangleMesh& mesh) {
   std::vector<double> distances;
   for (const std::string& text : texts)
-    distances.push_back(support::checked_finite_length("--clustering", text).in_mesh_units(mesh));
+    distances.push_back(support::checked_length("--clustering", text).in_mesh_units(mesh));
   if (!distances.empty()) return distances;
   for (const double times : {0.0, 0.5, 1.0, 2.0, 4.0})
     distances.push_back(times * papers::choi_sung_clustering_percent / 100 * mesh.diagonal());
@@ -60,9 +60,9 @@ papers::FrontierSettings checked(const TuneOptions& options, const TriangleMesh&
   papers::FrontierSettings settings;
   settings.methods = checked_methods(options.methods);
   settings.levels = static_cast<int>(support::count_or(quick ? 1 : 3, "--levels", options.levels, 0, 8));
-  settings.threshold = support::checked_finite_length("--threshold", options.threshold).in_mesh_units(mesh);
+  settings.threshold = support::checked_length("--threshold", options.threshold).in_mesh_units(mesh);
   settings.clusterings = checked_clusterings(options.clusterings, mesh);
-  settings.radius = support::checked_finite_length("--radius", options.common.radius).in_mesh_units(mesh);
+  settings.radius = support::checked_length("--radius", options.common.radius).in_mesh_units(mesh);
   settings.steps = support::count_or(quick ? 50 : 1000, "--steps", options.common.steps, 1, 1'000'000);
   settings.seed = support::checked_seed(options.common.seed);
   if (!options.reference.empty())

@@ -38,8 +38,7 @@ struct UpdateOptions {
 };
 
 double checked_share(std::string_view text) {
-  const std::optional<support::Length> share = support::parse_length(text);
-  const double value = share ? (share->percent ? share->value / 100 : share->value) : 0;
+  const double value = support::parse_share(text);
   if (!(value > 0 && value <= 1)) {
     throw std::invalid_argument(
         fmt::format("--shares: \"{}\" is not a share of the vertices above 0 and at most 100%", text));

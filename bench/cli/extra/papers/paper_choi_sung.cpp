@@ -41,9 +41,8 @@ papers::ChoiSungSettings checked(const ChoiSungOptions& options, const TriangleM
   settings.levels = static_cast<int>(support::count_or(3, "--levels", options.levels, 1, 5));
   settings.steps = support::count_or(quick ? 50 : 2000, "--steps", options.common.steps, 1, 1'000'000);
   settings.seed = support::checked_seed(options.common.seed);
-  settings.radius = support::checked_finite_length("--radius", options.common.radius).in_mesh_units(mesh);
-  settings.clustering =
-      support::checked_finite_length("--clustering", options.clustering).in_mesh_units(mesh);
+  settings.radius = support::checked_length("--radius", options.common.radius).in_mesh_units(mesh);
+  settings.clustering = support::checked_length("--clustering", options.clustering).in_mesh_units(mesh);
   if (!(settings.clustering > 0))
     throw std::invalid_argument(fmt::format("--clustering \"{}\" is not above 0", options.clustering));
   if (quick) settings.effort = {2, 1e5};

@@ -40,7 +40,7 @@ papers::ParkJangSettings checked(const ParkJangOptions& options) {
   settings.steps = support::count_or(quick ? 20 : 8000, "--steps", options.common.steps, 1, 1'000'000);
   settings.places = std::min<std::size_t>(40, std::max<std::size_t>(settings.steps / 5, 1));
   settings.seed = support::checked_seed(options.common.seed);
-  settings.radius = support::checked_finite_length("--radius", options.common.radius);
+  settings.radius = support::checked_length("--radius", options.common.radius);
   settings.groups = papers::park_jang_group_counts(
       support::count_or(quick ? 1000 : 35'000, "--most-groups", options.max_groups, 1, 1'000'000));
   if (quick) settings.effort = {2, 1e5};
