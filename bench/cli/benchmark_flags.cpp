@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/support/checked.h"
 #include "bench/support/numbers.h"
 #include "bench/workers/timing/throughput.h"
 
@@ -23,25 +24,14 @@ std::pair<std::string, std::string> split_flag(const std::string& argument) {
   return {argument.substr(0, equals), argument.substr(equals + 1)};
 }
 
-std::invalid_argument bad_value(std::string_view name, std::string_view value, std::string_view expected) {
-  return std::invalid_argument(fmt::format("{} \"{}\" is not {}", name, value, expected));
-}
-
-std::size_t parse_repetitions(const std::string& name, const std::string& value) {
-  const auto count = support::parse_count(value);
-  if (!count || *count < 1 || *count > max_repetitions) {
-    throw bad_value(name, value, fmt::format("a whole number from 1 to {}", max_repetitions));
-  }
-  return *count;
-}
-
 double parse_min_time(const std::string& name, const std::string& value) {
   // Newer releases of the library write "0.5s".
   const std::string_view number =
       std::string_view(value).substr(0, value.ends_with('s') ? value.size() - 1 : value.size());
   const auto seconds = support::parse_number(number);
   if (!seconds || !(*seconds > 0) || *seconds > max_repetition_s) {
-    throw bad_value(name, value, fmt::format("a time in seconds, above 0 and at most {}", max_repetition_s));
+    throw support::bad_value(name, value,
+                             fmt::format("a time in seconds, above 0 and at most {}", max_repetition_s));
   }
   return *seconds;
 }
@@ -56,7 +46,7 @@ std::function<bool(const std::string&)> parse_filter(const std::string& name, co
           return std::regex_search(name_of_case, expression) != negated;
         };
   } catch (const std::regex_error&) {
-    throw bad_value(name, value, "a regular expression");
+    throw support::bad_value(name, value, "a regular expression");
   }
 }
 
@@ -69,14 +59,12 @@ bool is_of_output(BenchmarkFlags& flags, const std::string& name, const std::str
     flags.out = value;
   } else if (name == "--benchmark_out_format") {
     if (value != "json") {
-      throw std::invalid_argument(
-          fmt::format("--benchmark_out_format \"{}\" is not json; --out DIR writes results.csv", value));
+      throw support::bad_value("--benchmark_out_format", value, "json; --out DIR writes results.csv");
     }
   } else if (name == "--benchmark_format") {
     if (value != "console") {
-      throw std::invalid_argument(fmt::format(
-          "--benchmark_format \"{}\" is not console; --benchmark_out=FILE writes JSON, --out DIR results.csv",
-          value));
+      throw support::bad_value("--benchmark_format", value,
+                               "console; --benchmark_out=FILE writes JSON, --out DIR results.csv");
     }
   } else {
     return false;
@@ -87,7 +75,7 @@ bool is_of_output(BenchmarkFlags& flags, const std::string& name, const std::str
 void take(BenchmarkFlags& flags, const std::string& argument) {
   const auto [name, value] = split_flag(argument);
   if (name == "--benchmark_repetitions") {
-    flags.repetitions = parse_repetitions(name, value);
+    flags.repetitions = support::checked_count(name, value, 1, max_repetitions);
   } else if (name == "--benchmark_min_time") {
     flags.min_time_s = parse_min_time(name, value);
   } else if (name == "--benchmark_filter") {

@@ -1,11 +1,10 @@
 #include "bench/cli/worker_options.h"
 
-#include <stdexcept>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "bench/cli/options.h"
+#include "bench/support/checked.h"
 #include "bench/support/numbers.h"
 
 namespace touchmark::bench::cli {
@@ -23,8 +22,8 @@ workers::WorkerOptions worker_options(const WorkerSelectors& selectors) {
   constexpr double max_s = 86400;
   const std::optional<double> seconds = support::parse_number(selectors.timeout);
   if (!seconds || !(*seconds > 0) || *seconds > max_s) {
-    throw std::invalid_argument(fmt::format(
-        "--timeout \"{}\" is not a time in seconds, above 0 and at most {}", selectors.timeout, max_s));
+    throw support::bad_value("--timeout", selectors.timeout,
+                             fmt::format("a time in seconds, above 0 and at most {}", max_s));
   }
   options.build_timeout = options.request_timeout =
       std::chrono::milliseconds(static_cast<std::chrono::milliseconds::rep>(*seconds * 1000) + 1);

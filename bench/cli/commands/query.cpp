@@ -22,6 +22,7 @@
 #include "bench/contestants/entry.h"
 #include "bench/contestants/roster.h"
 #include "bench/results/answer_rows.h"
+#include "bench/support/checked.h"
 #include "bench/support/failures.h"
 #include "bench/support/files/atomic_file.h"
 #include "bench/support/files/standard_output.h"
@@ -102,8 +103,7 @@ void write_rows(RowSink& sink, workload::Query query, std::span<const workload::
 
 std::size_t checked_step(const std::string& text) {
   const std::optional<std::uint64_t> step = support::parse_count(text);
-  if (!step)
-    throw std::invalid_argument(fmt::format("--step \"{}\" is not a whole number of 0 or more", text));
+  if (!step) throw support::bad_value("--step", text, "a whole number of 0 or more");
   return *step;
 }
 

@@ -54,8 +54,7 @@ std::size_t checked_cells(const std::string& text) {
   if (text == "all") return most;
   const std::optional<std::uint64_t> cells = support::parse_count(text);
   if (!cells || *cells < 1 || *cells > most)
-    throw std::invalid_argument(
-        fmt::format("--cells \"{}\" is not a whole number from 1 to {}, or all", text, most));
+    throw support::bad_value("--cells", text, fmt::format("a whole number from 1 to {}, or all", most));
   return *cells;
 }
 

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <optional>
 #include <ratio>
-#include <stdexcept>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -24,8 +23,7 @@ constexpr double max_rate_hz = 100'000;
 double checked_share(const std::string& text) {
   const double share = support::parse_share(text);
   if (!(share > 0) || share > 1)
-    throw std::invalid_argument(
-        fmt::format("--share \"{}\" is not a part of a tick: above 0 and at most 100%, or 1", text));
+    throw support::bad_value("--share", text, "a part of a tick: above 0 and at most 100%, or 1");
   return share;
 }
 
@@ -42,8 +40,7 @@ std::optional<double> checked_memory(const std::string& given) {
   }
   const std::optional<double> value = support::parse_number(text);
   if (!value || !(*value > 0) || *value * unit > 1e15)
-    throw std::invalid_argument(
-        fmt::format("--memory \"{}\" is not a size above 0: bytes, or as 800KB, 50MB or 2GB", given));
+    throw support::bad_value("--memory", given, "a size above 0: bytes, or as 800KB, 50MB or 2GB");
   return *value * unit;
 }
 
@@ -59,8 +56,8 @@ support::Deadline::duration checked_minutes(const ChooseOptions& options) {
   constexpr double most = 1e6;
   const std::optional<double> minutes = support::parse_number(options.minutes);
   if (!minutes || !(*minutes > 0) || *minutes > most)
-    throw std::invalid_argument(
-        fmt::format("--minutes \"{}\" is not a number above 0 and at most {:.0f}", options.minutes, most));
+    throw support::bad_value("--minutes", options.minutes,
+                             fmt::format("a number above 0 and at most {:.0f}", most));
   return std::chrono::duration_cast<support::Deadline::duration>(
       std::chrono::duration<double, std::ratio<60>>(*minutes));
 }

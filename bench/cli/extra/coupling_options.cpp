@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/options.h"
+#include "bench/support/checked.h"
 #include "bench/support/numbers.h"
 
 namespace touchmark::bench::cli {
@@ -17,7 +18,7 @@ namespace {
 double checked_number(const char* option, const std::string& text) {
   const std::optional<double> value = support::parse_number(text);
   if (!value || !(*value >= 0) || !std::isfinite(*value))
-    throw std::invalid_argument(fmt::format("{} \"{}\" is not a finite number of 0 or more", option, text));
+    throw support::bad_value(option, text, "a finite number of 0 or more");
   return *value;
 }
 

@@ -1,7 +1,6 @@
 #include "bench/cli/extra/gate_options.h"
 
 #include <optional>
-#include <stdexcept>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
+#include "bench/support/checked.h"
 #include "bench/support/length.h"
 
 namespace touchmark::bench::cli {
@@ -27,7 +27,7 @@ Example: touchmark gate --mesh part.stl --trajectory hand.csv --detector grid-gr
 double checked_tolerance(const std::string& text) {
   const double value = support::parse_share(text);
   if (!(value > 0 && value < 1))
-    throw std::invalid_argument(fmt::format("--tolerance \"{}\" is not above 0 and below 100%, as 7%", text));
+    throw support::bad_value("--tolerance", text, "above 0 and below 100%, as 7%");
   return value;
 }
 

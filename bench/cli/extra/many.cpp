@@ -1,7 +1,6 @@
 /// `touchmark many`: many points asked at once, against Embree asked for the same points in the same order.
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -63,16 +62,13 @@ ManySettings checked(const ManyCommandOptions& options, const contestants::Roste
        or_else(options.kinds, {"coherent", "incoherent", "pointshell", "pointshell-close"})) {
     const std::optional<many::Kind> kind = many::kind_named(name);
     if (!kind)
-      throw std::invalid_argument(fmt::format(
-          "--kind \"{}\" is not one of coherent, incoherent, pointshell, pointshell-close", name));
+      throw support::bad_value("--kind", name, "one of coherent, incoherent, pointshell, pointshell-close");
     settings.kinds.push_back(*kind);
   }
   for (const std::string& threads : or_else(options.threads, {"1"})) {
     for (const std::string& name : or_else(options.orders, {"as-given", "automatic"})) {
       const std::optional<AskOrder> order = many::order_named(name);
-      if (!order)
-        throw std::invalid_argument(
-            fmt::format("--order \"{}\" is not one of as-given, automatic, curve", name));
+      if (!order) throw support::bad_value("--order", name, "one of as-given, automatic, curve");
       settings.options.push_back(
           {static_cast<unsigned>(support::count_or(1, "--threads", threads, 1, max_threads)), *order});
     }

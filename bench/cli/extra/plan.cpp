@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <memory>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "bench/contestants/roster.h"
 #include "bench/meshes/meshes.h"
 #include "bench/results/build_info.h"
+#include "bench/support/checked.h"
 #include "bench/support/files/atomic_file.h"
 #include "bench/support/files/standard_output.h"
 #include "bench/support/progress.h"
@@ -38,8 +38,7 @@ std::vector<workload::Query> checked_queries(const std::vector<std::string>& nam
   for (const std::string& name : names) {
     const std::optional<workload::Query> query = workload::query_named(name);
     if (!query && name != "all") {
-      throw std::invalid_argument(
-          fmt::format("--query \"{}\" is not one of touches, nearest, sweep, all", name));
+      throw support::bad_value("--query", name, "one of touches, nearest, sweep, all");
     }
     if (query) queries.push_back(*query);
     if (name == "all")

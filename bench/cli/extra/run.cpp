@@ -19,6 +19,7 @@
 #include "bench/measurement/comparison.h"
 #include "bench/results/build_info.h"
 #include "bench/results/results_csv.h"
+#include "bench/support/checked.h"
 #include "bench/support/numbers.h"
 #include "bench/workload/content_hash.h"
 
@@ -42,7 +43,7 @@ Shard checked_shard(const std::string& text) {
   const std::uint64_t which = support::parse_count(text.substr(0, slash)).value_or(0);
   const std::uint64_t count = support::parse_count(text.substr(slash + 1)).value_or(0);
   if (which < 1 || which > count) {
-    throw std::invalid_argument(fmt::format("--shard \"{}\" is not i/N, i from 1 to N", text));
+    throw support::bad_value("--shard", text, "i/N, i from 1 to N");
   }
   return {which, count};
 }

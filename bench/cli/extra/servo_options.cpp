@@ -71,8 +71,7 @@ servo::ServoSettings checked_settings(const ServoOptions& options, int core) {
   settings.ticks = static_cast<std::uint64_t>(std::max(std::round(seconds * settings.rate_hz), 1.0));
   settings.work_us = support::checked_number("--work", options.work_us, support::Zero::allowed, 1e6);
   const std::optional<servo::Load> load = servo::load_named(options.load);
-  if (!load)
-    throw std::invalid_argument(fmt::format("--load \"{}\" is not one of none, memory, cpu", options.load));
+  if (!load) throw support::bad_value("--load", options.load, "one of none, memory, cpu");
   settings.load = *load;
   if (*load != servo::Load::none && servo::other_cores(core).empty())
     throw std::invalid_argument(

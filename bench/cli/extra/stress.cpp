@@ -140,8 +140,7 @@ void repeat_one(const StressOptions& options, const contestants::Roster& roster)
     if (const auto index = support::parse_count(parts[i])) indices.push_back(*index);
   }
   if (indices.size() != 3) {
-    throw std::invalid_argument(
-        fmt::format("--repeat \"{}\" is not QUERY/MESH/COURSE/STEP, as nearest/0/0/17", options.repeat));
+    throw support::bad_value("--repeat", options.repeat, "QUERY/MESH/COURSE/STEP, as nearest/0/0/17");
   }
   const std::vector<workload::Workload> workloads =
       request.families.front()->make(request.seed, request.probes);

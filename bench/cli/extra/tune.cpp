@@ -37,9 +37,7 @@ std::vector<SubdivisionMethod> checked_methods(const std::vector<std::string>& n
   std::vector<SubdivisionMethod> methods;
   for (const std::string& name : names) {
     const std::optional<SubdivisionMethod> method = subdivision_method(name);
-    if (!method)
-      throw std::invalid_argument(
-          fmt::format("--method \"{}\" is not a subdivision method (mesh subdivide)", name));
+    if (!method) throw support::bad_value("--method", name, "a subdivision method (mesh subdivide)");
     methods.push_back(*method);
   }
   return methods.empty() ? std::vector{SubdivisionMethod::ls3} : methods;

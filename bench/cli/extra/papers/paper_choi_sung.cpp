@@ -43,8 +43,7 @@ papers::ChoiSungSettings checked(const ChoiSungOptions& options, const TriangleM
   settings.seed = support::checked_seed(options.common.seed);
   settings.radius = support::checked_length("--radius", options.common.radius).in_mesh_units(mesh);
   settings.clustering = support::checked_length("--clustering", options.clustering).in_mesh_units(mesh);
-  if (!(settings.clustering > 0))
-    throw std::invalid_argument(fmt::format("--clustering \"{}\" is not above 0", options.clustering));
+  if (!(settings.clustering > 0)) throw support::bad_value("--clustering", options.clustering, "above 0");
   if (quick) settings.effort = {2, 1e5};
   return settings;
 }
