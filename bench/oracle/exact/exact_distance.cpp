@@ -187,14 +187,6 @@ ExactNearest nearest_of_surfaces(const Vec3& point, std::span<const PlacedTriang
   return nearest;
 }
 
-template <class AnyTriangle>
-std::strong_ordering compare(const Vec3& point, const AnyTriangle& triangle, double radius, double more) {
-  if (std::isinf(radius)) return std::strong_ordering::less;
-  const Grid grid(point, triangle, radius, more);
-  const Integer r = grid(radius) + grid(more);
-  return exact::order(nearest_on(relative(grid, grid(point), triangle)).square, Integer(r * r));
-}
-
 }  // namespace
 
 ExactNearest nearest_exactly(const Vec3& point, std::span<const Triangle> triangles) {
@@ -205,13 +197,16 @@ ExactNearest nearest_exactly(const Vec3& point, std::span<const PlacedTriangle> 
   return round ? nearest_of_surfaces(point, triangles) : nearest_of(point, triangles);
 }
 
-std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangle, double radius,
+template <class AnyTriangle>
+std::strong_ordering compare_distance(const Vec3& point, const AnyTriangle& triangle, double radius,
                                       double more) {
-  return compare(point, triangle, radius, more);
+  if (std::isinf(radius)) return std::strong_ordering::less;
+  const Grid grid(point, triangle, radius, more);
+  const Integer r = grid(radius) + grid(more);
+  return exact::order(nearest_on(relative(grid, grid(point), triangle)).square, Integer(r * r));
 }
-std::strong_ordering compare_distance(const Vec3& point, const PlacedTriangle& triangle, double radius,
-                                      double more) {
-  return compare(point, triangle, radius, more);
-}
+
+template std::strong_ordering compare_distance(const Vec3&, const Triangle&, double, double);
+template std::strong_ordering compare_distance(const Vec3&, const PlacedTriangle&, double, double);
 
 }  // namespace touchmark::bench::oracle

@@ -28,30 +28,28 @@ ExactNearest nearest_exactly(const Vec3& point, std::span<const Triangle> triang
 ExactNearest nearest_exactly(const Vec3& point, std::span<const PlacedTriangle> triangles);
 
 /// How the distance from a point to a triangle compares with the exact sum of `radius`, which may be
-/// infinite, and `more`; the sum is at least 0. One of each pair of functions, here and below, is of the
-/// image of a body's triangle, whatever its radius.
-std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangle, double radius,
+/// infinite, and `more`; the sum is at least 0. Here and below AnyTriangle is Triangle, or PlacedTriangle for
+/// the image of a body's triangle, whatever its radius.
+template <class AnyTriangle>
+std::strong_ordering compare_distance(const Vec3& point, const AnyTriangle& triangle, double radius,
                                       double more = 0);
-std::strong_ordering compare_distance(const Vec3& point, const PlacedTriangle& triangle, double radius,
-                                      double more = 0);
-
-/// How the distance from the segment `from`-`to` to a triangle compares with the sum.
-std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const Triangle& triangle,
-                                              double radius, double more = 0);
-std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to,
-                                              const PlacedTriangle& triangle, double radius, double more = 0);
 
 /// Compares the distance to the part of the path from `from` to `to` up to `fraction` in [0, 1], which ends
 /// at the very point from + fraction (to - from), be it a double or not.
+template <class AnyTriangle>
 std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
-                                           const Triangle& triangle, double radius, double more = 0);
-std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
-                                           const PlacedTriangle& triangle, double radius, double more = 0);
+                                           const AnyTriangle& triangle, double radius, double more = 0);
 
 /// Compares the distance to the last point of that part alone.
+template <class AnyTriangle>
 std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
-                                              const Triangle& triangle, double radius, double more = 0);
-std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
-                                              const PlacedTriangle& triangle, double radius, double more = 0);
+                                              const AnyTriangle& triangle, double radius, double more = 0);
+
+/// How the distance from the segment `from`-`to` to a triangle compares with the sum.
+template <class AnyTriangle>
+std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const AnyTriangle& triangle,
+                                              double radius, double more = 0) {
+  return compare_part_distance(from, to, 1, triangle, radius, more);
+}
 
 }  // namespace touchmark::bench::oracle

@@ -83,16 +83,18 @@ Configuration part_of(const Vec3& from, const Vec3& to, double fraction, const A
   return c;
 }
 
+}  // namespace
+
 template <class AnyTriangle>
-std::strong_ordering compare_on_path(const Vec3& from, const Vec3& to, double fraction,
-                                     const AnyTriangle& triangle, double radius, double more) {
+std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
+                                              const AnyTriangle& triangle, double radius, double more) {
   if (std::isinf(radius)) return std::strong_ordering::less;
   return compare_end(part_of(from, to, fraction, triangle, radius, more));
 }
 
 template <class AnyTriangle>
-std::strong_ordering compare_part(const Vec3& from, const Vec3& to, double fraction,
-                                  const AnyTriangle& triangle, double radius, double more) {
+std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
+                                           const AnyTriangle& triangle, double radius, double more) {
   if (std::isinf(radius)) return std::strong_ordering::less;
   std::strong_ordering least = compare_distance(from, triangle, radius, more);
   if (least < 0) return least;
@@ -106,33 +108,13 @@ std::strong_ordering compare_part(const Vec3& from, const Vec3& to, double fract
   return least;
 }
 
-}  // namespace
-
-std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
-                                              const Triangle& triangle, double radius, double more) {
-  return compare_on_path(from, to, fraction, triangle, radius, more);
-}
-std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
-                                              const PlacedTriangle& triangle, double radius, double more) {
-  return compare_on_path(from, to, fraction, triangle, radius, more);
-}
-
-std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
-                                           const Triangle& triangle, double radius, double more) {
-  return compare_part(from, to, fraction, triangle, radius, more);
-}
-std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
-                                           const PlacedTriangle& triangle, double radius, double more) {
-  return compare_part(from, to, fraction, triangle, radius, more);
-}
-
-std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const Triangle& triangle,
-                                              double radius, double more) {
-  return compare_part(from, to, 1, triangle, radius, more);
-}
-std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to,
-                                              const PlacedTriangle& triangle, double radius, double more) {
-  return compare_part(from, to, 1, triangle, radius, more);
-}
+template std::strong_ordering compare_distance_on_path(const Vec3&, const Vec3&, double, const Triangle&,
+                                                       double, double);
+template std::strong_ordering compare_distance_on_path(const Vec3&, const Vec3&, double,
+                                                       const PlacedTriangle&, double, double);
+template std::strong_ordering compare_part_distance(const Vec3&, const Vec3&, double, const Triangle&, double,
+                                                    double);
+template std::strong_ordering compare_part_distance(const Vec3&, const Vec3&, double, const PlacedTriangle&,
+                                                    double, double);
 
 }  // namespace touchmark::bench::oracle
