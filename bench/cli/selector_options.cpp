@@ -47,7 +47,7 @@ void add_selectors(CLI::App& command, ProgramContext& context, contestants::Sele
   }
   command.add_flag("--normalize", selectors.normalize, "scale to box diagonal 1 about the origin");
   add_list(command, "--trajectory", selectors.trajectories, "T",
-           "a name (touchmark list) or a motion file, CSV with columns x,y,z; repeatable");
+           "a name (touchmark list), as hand:tap, or a motion file, CSV with columns x,y,z; repeatable");
   add_list(command, "--detector", selectors.detectors, "D",
            "a contestant (touchmark list) as NAME[:key=value,...]; repeatable");
   add_plugins(command, context, &selectors.detectors);

@@ -16,13 +16,15 @@ namespace touchmark::bench::trajectories {
 namespace {
 
 constexpr std::size_t default_steps = 20'000;
+constexpr double object_size_m = 0.2;  // across its box, where no unit says another
 constexpr double min_speed_percent = 1e-4, max_speed_percent = 50;
 
 struct Shape {
   const char* name;
   const char* description;
   Positions (*positions)(Motion);
-  double own_speed = 0;  ///< in diagonals a tick; 0: it takes no ":speed=S%"
+  double own_speed = 0;    ///< in diagonals a tick; 0: it takes no ":speed=S%"
+  const char* words = "";  ///< that it reads itself, as lists show them
 };
 
 constexpr Shape shapes[] = {
@@ -35,6 +37,8 @@ constexpr Shape shapes[] = {
     {"tap", "three quick contacts at each of many random places", &tap},
     {"edge", "in contact along sharp edges; along any edges where none is sharp", &edge, slide_speed},
     {"cross", "straight through thin parts, four radii a tick", &cross},
+    {"hand", "as recorded hands move an object of 20 cm: strokes, pauses, tremor and the sensor's noise",
+     &hand, 0, hand_words},
 };
 
 double unit_of_length(const TriangleMesh& mesh, double radius) {
@@ -69,7 +73,7 @@ const Shape* shape_of(const std::string& what) {
 /// Returns diagonals a tick, or nothing where there is no option.
 std::optional<double> speed_in(const std::string& what, const Shape& shape) {
   const std::size_t colon = what.find(':');
-  if (colon == std::string::npos) return std::nullopt;
+  if (colon == std::string::npos || *shape.words != '\0') return std::nullopt;
   constexpr std::string_view key = "speed=";
   const std::string_view option = std::string_view(what).substr(colon + 1);
   if (shape.own_speed == 0 || !option.starts_with(key)) {
@@ -90,7 +94,8 @@ std::optional<double> speed_in(const std::string& what, const Shape& shape) {
 
 std::vector<TrajectoryInfo> trajectories() {
   std::vector<TrajectoryInfo> list;
-  for (const Shape& shape : shapes) list.push_back({shape.name, shape.description, 100 * shape.own_speed});
+  for (const Shape& shape : shapes)
+    list.push_back({shape.name, shape.description, 100 * shape.own_speed, shape.words});
   return list;
 }
 
@@ -107,13 +112,12 @@ Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
     if (is_path(what)) return read_trajectory(what, options.steps, options.motion);
     throw unknown(what);
   }
-  const double diagonal = unit_of_length(mesh, options.radius);
+  const double diagonal = unit_of_length(mesh, options.radius),
+               radius = std::min(options.radius, 0.05 * diagonal);
+  const double metre = options.unit ? 1 / options.unit->metres : diagonal / object_size_m;
   const std::size_t steps = options.steps == 0 ? default_steps : options.steps;
-  return {what,
-          shape->positions({mesh, steps, support::Random(options.seed), diagonal,
-                            std::min(options.radius, 0.05 * diagonal), speed_in(what, *shape)}),
-          {},
-          {}};
+  return {what, shape->positions({mesh, steps, support::Random(options.seed), diagonal, radius,
+                                  speed_in(what, *shape), what, metre})};
 }
 
 }  // namespace touchmark::bench::trajectories

@@ -25,9 +25,9 @@ struct RecordedTiming {
 
 struct Trajectory {
   std::string name;
-  std::vector<Vec3> positions;  ///< mesh units
-  std::vector<double> radii;    ///< one a position, or empty: the command line's radius throughout
-  std::vector<double> times_s;  ///< one a position, or empty: step / 1000
+  std::vector<Vec3> positions;       ///< mesh units
+  std::vector<double> radii = {};    ///< one a position, or empty: the command line's radius throughout
+  std::vector<double> times_s = {};  ///< one a position, or empty: step / 1000
   std::optional<RecordedTiming> recorded = std::nullopt;  ///< for a file with times
 
   std::size_t size() const noexcept { return positions.size(); }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bench/support/random.h"
@@ -15,6 +16,10 @@ namespace touchmark::bench::trajectories {
 /// twice that.
 inline constexpr double slide_speed = 0.0005, hover_speed = 0.001;
 
+/// What may follow the name of `hand`, as lists and errors show it.
+inline constexpr const char* hand_words =
+    "[:contact|free|tap][,speed=F,tremor=F,noise=F,encoder=LENGTH,size=LENGTH]";
+
 /// What all of them are given. `steps` positions come back.
 struct Motion {
   const TriangleMesh& mesh;
@@ -23,6 +28,8 @@ struct Motion {
   double diagonal;  ///< the unit of length, > 0: the mesh's diagonal, or a stand-in where that is zero
   double radius;    ///< the probe's, cut to 0.05 diagonal: a larger ball would not follow the surface
   std::optional<double> speed = std::nullopt;  ///< diagonals a tick; nothing: the shape's own
+  std::string name = {};  ///< with the words behind it, which a shape with words of its own reads
+  double metre = 1;       ///< in mesh units
 };
 
 using Positions = std::vector<Vec3>;
@@ -34,5 +41,6 @@ Positions jump(Motion motion);
 Positions tap(Motion motion);
 Positions edge(Motion motion);
 Positions cross(Motion motion);
+Positions hand(Motion motion);
 
 }  // namespace touchmark::bench::trajectories

@@ -76,9 +76,10 @@ Workload make_scene_workload(scenes::GeneratedScene scene, const Selection& sele
   const std::size_t steps = affordable(default_steps, scene.motion.moving.size());
   for (const std::string& name : trajectories) {
     const bool generated = trajectories::is_generated(name);
-    trajectories::Trajectory trajectory = trajectories::make_trajectory(
-        name, workload.mesh,
-        {selection.steps.value_or(generated ? steps : 0), selection.seed, workload.radius, motion});
+    trajectories::Trajectory trajectory =
+        trajectories::make_trajectory(name, workload.mesh,
+                                      {selection.steps.value_or(generated ? steps : 0), selection.seed,
+                                       workload.radius, motion, selection.unit});
     const std::vector<double> times = times_of(trajectory, selection.motion.rate_hz);
     if (generated) carry(trajectory.positions, times, scene, workload.mesh);
     workload.motions.push_back(pace_of(trajectory));

@@ -91,9 +91,10 @@ Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection
   expect_a_motion_file(trajectories, selection.motion);
   require_memory_for(trajectories, selection, default_steps);
   for (const std::string& name : trajectories) {
-    const trajectories::Trajectory trajectory = trajectories::make_trajectory(
-        name, workload.mesh,
-        {steps_of(name, selection, default_steps), selection.seed, workload.radius, selection.motion});
+    const trajectories::Trajectory trajectory =
+        trajectories::make_trajectory(name, workload.mesh,
+                                      {steps_of(name, selection, default_steps), selection.seed,
+                                       workload.radius, selection.motion, selection.unit});
     say_that_rows_are_steps(trajectory);
     workload.motions.push_back(pace_of(trajectory));
     workload.trajectories.push_back(trajectory.name);

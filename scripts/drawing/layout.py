@@ -7,7 +7,7 @@ import warnings
 from . import detectors
 from .results import shortened, unique
 
-TRAJECTORIES = {"slide": "o", "slide:speed=0.4%": "p", "approach": "s", "hover": "D", "jump": "^", "tap": "v", "edge": "P", "cross": "X"}
+TRAJECTORIES = {"slide": "o", "slide:speed=0.4%": "p", "approach": "s", "hover": "D", "jump": "^", "tap": "v", "edge": "P", "cross": "X", "hand": "*"}
 FILLS = {"o": 0.0, "p": 1.0, "s": 0.5, "D": 1.0, "^": 0.0, "v": 0.5, "P": 1.0, "X": 0.0}  # how much of the colour
 OTHER_MARKERS = "*hd<>"
 NARROWEST = 7.5  # inches: what a title and a legend need

@@ -60,8 +60,10 @@ std::string list(const contestants::Roster& roster) {
       "\ntrajectories: --trajectory NAME, or a motion file: CSV with columns x,y,z and perhaps time_s, "
       "radius\n";
   for (const trajectories::TrajectoryInfo& trajectory : trajectories::trajectories()) {
-    text += fmt::format("  {:<28}{}\n", trajectory.name + (trajectory.own_percent > 0 ? "[:speed=S%]" : ""),
-                        trajectory.description);
+    const std::string name =
+        trajectory.name + (trajectory.own_percent > 0 ? "[:speed=S%]" : trajectory.words);
+    text += name.size() < 28 ? fmt::format("  {:<28}{}\n", name, trajectory.description)
+                             : fmt::format("  {}\n  {:<28}{}\n", name, "", trajectory.description);
   }
   return text;
 }

@@ -145,6 +145,7 @@ void add_query(CLI::App& program, ProgramContext& context) {
   CLI::App* command = add_command(program, "query");
   add_selectors(*command, context, options->selectors);
   add_scene_selectors(*command, options->selectors);
+  add_unit(*command, options->selectors.unit);
   add_value(*command, "--csv", options->csv, "FILE", "where the rows go instead of standard output");
   CLI::Option* step = command->add_option(
       "--step", options->step, "only this step's row, as verify, stress and bench name it; from 0");

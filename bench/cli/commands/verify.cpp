@@ -147,6 +147,7 @@ void add_verify(CLI::App& program, ProgramContext& context) {
   CLI::App* command = add_command(program, "verify");
   add_selectors(*command, context, options->selectors, contestants::Variety::many);
   add_scene_selectors(*command, options->selectors);
+  add_unit(*command, options->selectors.unit);
   add_value(*command, "--out", options->out, "DIR", "folder for results.csv");
   add_junit(*command, options->reports);
   add_markdown(*command, options->reports);

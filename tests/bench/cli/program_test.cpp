@@ -287,8 +287,8 @@ TEST(Verify, IsContentWithWhatIsExact) {
                      "--detector", "grid-group", "--detector", "sphere-cluster", "--out", folder.path()});
   EXPECT_EQ(finished.status, 0) << finished.out;
   EXPECT_EQ(finished.out.find("BROKEN"), std::string::npos);
-  // Two meshes, seven trajectories, three queries, two contestants.
-  EXPECT_EQ(lines_of(content_of(folder.file("results.csv"))).size(), 1U + 2 * 7 * 3 * 2);
+  // Two meshes, eight trajectories, three queries, two contestants.
+  EXPECT_EQ(lines_of(content_of(folder.file("results.csv"))).size(), 1U + 2 * 8 * 3 * 2);
 }
 
 TEST(Verify, ExitsWith1WhenAClaimIsBroken) {

@@ -122,9 +122,9 @@ std::vector<std::string> names() {
   return all;
 }
 
-TEST(Trajectories, AreTheSevenOfTheDesign) {
+TEST(Trajectories, AreTheEightOfTheDesign) {
   EXPECT_EQ(names(),
-            (std::vector<std::string>{"slide", "approach", "hover", "jump", "tap", "edge", "cross"}));
+            (std::vector<std::string>{"slide", "approach", "hover", "jump", "tap", "edge", "cross", "hand"}));
 }
 
 TEST(Trajectories, HaveAsManyFiniteStepsAsAsked) {
@@ -405,7 +405,7 @@ TEST(Trajectories, RefuseAnUnknownNameAndListTheKnownOnes) {
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(
         error.what(),
-        "unknown trajectory 'slied': it is one of slide, approach, hover, jump, tap, edge, cross, or a "
+        "unknown trajectory 'slied': it is one of slide, approach, hover, jump, tap, edge, cross, hand, or a "
         "CSV file");
   }
 }
