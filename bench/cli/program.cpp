@@ -62,7 +62,7 @@ struct OptionGroup {
 constexpr OptionGroup option_groups[] = {
     {"Mesh and motion",
      " --mesh --normalize --scene --poses --package --unit --trajectory --columns --motion-scale --rate "
-     "--steps --seed "},
+     "--drape --steps --seed "},
     {"Query", " --query --radius --reach "},
     {"Detectors", " --detector --plugin --frontier --timeout --worker-output "},
     {"Output", " --out --steps-out --csv --json --markdown --junit --manifest --trace --wide "}};

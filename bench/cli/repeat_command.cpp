@@ -31,7 +31,8 @@ std::string repeat_command(const contestants::Selectors& selectors, const std::s
   add("--columns", selectors.motion.columns);
   add("--motion-scale", selectors.motion.scale);
   add("--rate", selectors.motion.rate);
-  if (row.trajectory.starts_with("hand")) add("--unit", selectors.unit);
+  add("--drape", selectors.motion.drape);
+  if (!selectors.motion.drape.empty() || row.trajectory.starts_with("hand")) add("--unit", selectors.unit);
   return command +
          fmt::format(" --steps {} --seed {} --step ", workload.traces[trace].size(), selectors.seed);
 }

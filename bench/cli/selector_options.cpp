@@ -59,6 +59,13 @@ void add_selectors(CLI::App& command, ProgramContext& context, contestants::Sele
   add_value(command, "--reach", selectors.reach, "LENGTH",
             "how far nearest looks; inf is allowed; default: the radius");
   add_motion_selectors(command, selectors.motion);
+  command
+      .add_option_function<std::string>(
+          "--drape", [&](const std::string& how) { selectors.motion.drape = how.empty() ? "contact" : how; },
+          "lay motion files on the surface, in contact (default) or free of it; they are in metres unless "
+          "--motion-scale is given; the mesh is 20 cm across unless --unit is given")
+      ->type_name("[contact|free]")
+      ->expected(0, 1);
   add_value(command, "--steps", selectors.steps, "N", "steps a trajectory");
   add_value(command, "--seed", selectors.seed, "N", "of trajectories and of the order of measuring");
 }

@@ -53,7 +53,7 @@ CheckedSelectors check(const Selectors& selectors, const Roster& roster, Variety
   if (!selectors.steps.empty())
     selection.steps = support::checked_count("--steps", selectors.steps, 1, max_steps);
   selection.motion = trajectories::parse_motion_options(selectors.motion.columns, selectors.motion.scale,
-                                                        selectors.motion.rate);
+                                                        selectors.motion.rate, selectors.motion.drape);
   selection.unit = checked_unit(selectors.unit);
   selection.seed = support::checked_seed(selectors.seed);
   selection.contestants = roster.parse_all(selectors.detectors);

@@ -17,7 +17,7 @@ namespace touchmark::bench::contestants {
 
 /// How motion files are read, as the command line says it; empty: as motion_options.h says.
 struct MotionSelectors {
-  std::string columns, scale, rate;
+  std::string columns, scale, rate, drape;
 };
 
 /// Nothing for an empty text. Throws std::invalid_argument.

@@ -1,10 +1,14 @@
 #include "bench/trajectories/drape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <stdexcept>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "bench/support/median.h"
 #include "bench/trajectories/surface.h"
 
 namespace touchmark::bench::trajectories {
@@ -62,6 +66,39 @@ class SurfaceWalk {
   double distance_ = 0;
 };
 
+/// Moves and turns the points so that x, y and z are their axes of most, middle and least variance.
+void turn_to_axes(Trajectory& recording) {
+  std::vector<Vec3>& points = recording.positions;
+  const double share = 1 / static_cast<double>(points.size());
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& point : points) mean += share * point;
+  Eigen::Matrix3d variance = Eigen::Matrix3d::Zero();
+  for (const Vec3& point : points) variance += share * (point - mean) * (point - mean).transpose();
+  if (!variance.allFinite())
+    throw std::invalid_argument(recording.name + ": the coordinates are too large for --drape");
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(variance);
+  for (Vec3& point : points) point = (solver.eigenvectors().transpose() * (point - mean)).reverse().eval();
+  Vec3 moment = Vec3::Zero();
+  for (const Vec3& point : points) moment += point.cwiseProduct(point).cwiseProduct(point);
+  for (Vec3& point : points) point = (moment.array() < 0).select(-point, point).eval();
+}
+
+/// Counts z from its median, and turns it where the steps below would be the longer ones on average.
+void find_ground(std::vector<Vec3>& points) {
+  std::vector<double> heights;
+  for (const Vec3& point : points) heights.push_back(point.z());
+  const double ground = support::median(heights);
+  std::array<double, 2> ways{}, steps{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].z() -= ground;
+    const std::size_t side = points[i].z() > 0 ? 1 : 0;
+    ways[side] += i > 0 ? (points[i] - points[i - 1]).norm() : 0;
+    ++steps[side];
+  }
+  if (ways[0] * steps[1] <= ways[1] * steps[0]) return;
+  for (Vec3& point : points) point.z() *= -1;
+}
+
 }  // namespace
 
 Positions laid_on_surface(std::span<const Vec3> flat, Motion& motion) {
@@ -73,6 +110,22 @@ Positions laid_on_surface(std::span<const Vec3> flat, Motion& motion) {
     last = next;
   }
   return positions;
+}
+
+Trajectory draped(Trajectory recording, Drape how, Motion motion) {
+  std::vector<Vec3>& points = recording.positions;
+  turn_to_axes(recording);
+  find_ground(points);
+  const double lowest = std::ranges::min(points, {}, [](const Vec3& point) { return point.z(); }).z();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    // In contact by so much that the coordinates' rounding loses none.
+    constexpr double within = 1 - 0x1p-30;
+    const double radius = recording.radii.empty() ? motion.radius : recording.radii[i];
+    double& height = points[i].z();
+    height = how == Drape::free ? height - lowest : std::clamp(height, -0.5 * radius, within * radius);
+  }
+  points = laid_on_surface(points, motion);
+  return recording;
 }
 
 }  // namespace touchmark::bench::trajectories

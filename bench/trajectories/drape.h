@@ -3,6 +3,8 @@
 
 #include <span>
 
+#include "bench/trajectories/motion_options.h"
+#include "bench/trajectories/trajectory.h"
 #include "bench/trajectories/trajectory_shapes.h"
 
 namespace touchmark::bench::trajectories {
@@ -13,5 +15,12 @@ namespace touchmark::bench::trajectories {
 /// centre, and the point below it goes a shorter or a longer way. No position is farther from the surface
 /// than its height, or its depth where that is negative. Between walls closer than the height it is nearer.
 Positions laid_on_surface(std::span<const Vec3> flat, Motion& motion);
+
+/// Returns the recording, in mesh units, laid on the surface. Its axes of most and of middle variance are
+/// ways along the surface, each turned so that its third central moment is positive; the third axis is the
+/// height above its median, turned so that the slower side points inward. `contact` clamps heights between
+/// half the radius inside and the radius outside; `free` counts them from the lowest. So a recording that is
+/// turned or moved gives the same motion. Throws std::invalid_argument where its variance overflows.
+Trajectory draped(Trajectory recording, Drape how, Motion motion);
 
 }  // namespace touchmark::bench::trajectories

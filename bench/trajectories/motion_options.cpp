@@ -89,11 +89,15 @@ ChosenColumns parse_columns(const std::string& text) {
 }
 
 MotionOptions parse_motion_options(const std::string& columns, const std::string& scale,
-                                   const std::string& rate) {
+                                   const std::string& rate, const std::string& drape) {
   MotionOptions options;
   if (!columns.empty()) options.columns = parse_columns(columns);
   if (!scale.empty()) options.scale = positive("--motion-scale", scale);
   if (!rate.empty()) options.rate_hz = positive("--rate", rate);
+  if (drape.empty()) return options;
+  if (drape != "contact" && drape != "free")
+    throw std::invalid_argument(fmt::format("--drape \"{}\" is neither contact nor free", drape));
+  options.drape = drape == "free" ? Drape::free : Drape::contact;
   return options;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/support/length.h"
+#include "bench/trajectories/drape.h"
 #include "bench/trajectories/trajectory_csv.h"
 #include "bench/trajectories/trajectory_shapes.h"
 
@@ -108,13 +109,17 @@ Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
                                 ": it must be at least 0");
   }
   const Shape* const shape = shape_of(what);
-  if (shape == nullptr) {
-    if (is_path(what)) return read_trajectory(what, options.steps, options.motion);
-    throw unknown(what);
-  }
+  if (shape == nullptr && !is_path(what)) throw unknown(what);
+  if (shape == nullptr && !options.motion.drape) return read_trajectory(what, options.steps, options.motion);
   const double diagonal = unit_of_length(mesh, options.radius),
                radius = std::min(options.radius, 0.05 * diagonal);
   const double metre = options.unit ? 1 / options.unit->metres : diagonal / object_size_m;
+  if (shape == nullptr) {
+    MotionOptions motion = options.motion;
+    motion.scale = motion.scale.value_or(metre);
+    return draped(read_trajectory(what, options.steps, motion), *motion.drape,
+                  {mesh, 1, support::Random(options.seed), diagonal, radius});
+  }
   const std::size_t steps = options.steps == 0 ? default_steps : options.steps;
   return {what, shape->positions({mesh, steps, support::Random(options.seed), diagonal, radius,
                                   speed_in(what, *shape), what, metre})};

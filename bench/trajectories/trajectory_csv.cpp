@@ -96,7 +96,7 @@ bool MotionReader::has_enough() const {
 
 double MotionReader::coordinate(const MotionColumn& column) {
   const std::string& field = row_[column.index];
-  const double value = numbers_.read(field, column.name) * options_.scale;
+  const double value = numbers_.read(field, column.name) * options_.scale.value_or(1);
   if (!std::isfinite(value)) {
     throw file_.error("column " + column.name + ": " + shown(trimmed(field)) +
                       " times --motion-scale is beyond the range of a double");

@@ -81,7 +81,7 @@ Workload make_scene_workload(scenes::GeneratedScene scene, const Selection& sele
                                       {selection.steps.value_or(generated ? steps : 0), selection.seed,
                                        workload.radius, motion, selection.unit});
     const std::vector<double> times = times_of(trajectory, selection.motion.rate_hz);
-    if (generated) carry(trajectory.positions, times, scene, workload.mesh);
+    if (generated || motion.drape) carry(trajectory.positions, times, scene, workload.mesh);
     workload.motions.push_back(pace_of(trajectory));
     workload.trajectories.push_back(trajectory.name);
     workload.traces.push_back(trace_along(trajectory, workload.radius, workload.reach));

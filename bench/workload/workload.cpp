@@ -46,10 +46,11 @@ void expect_a_motion_file(const std::vector<std::string>& trajectories,
                           const trajectories::MotionOptions& options) {
   if (options.are_given() &&
       std::all_of(trajectories.begin(), trajectories.end(), &trajectories::is_generated)) {
-    throw std::invalid_argument(fmt::format("{} is of motion files, and no --trajectory is one",
-                                            options.columns   ? "--columns"
-                                            : options.rate_hz ? "--rate"
-                                                              : "--motion-scale"));
+    throw std::invalid_argument(
+        fmt::format("{} is of motion files, and no --trajectory is one", options.columns   ? "--columns"
+                                                                         : options.rate_hz ? "--rate"
+                                                                         : options.drape   ? "--drape"
+                                                                                         : "--motion-scale"));
   }
 }
 

@@ -1,8 +1,11 @@
 // Motion and mesh files as users bring them: through the program.
 #include <algorithm>
+#include <cstdlib>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
@@ -120,6 +123,51 @@ TEST(MotionFiles, EveryCommandThatFollowsATrajectoryTakesTheOptions) {
   EXPECT_NE(run.err.find("1 jobs done"), std::string::npos) << run.err;
 }
 
+TEST(MotionFiles, AreLaidOnTheSurfaceByDrape) {
+  const TemporaryFolder folder;
+  std::string rows = "x,y,z\n";
+  for (int i = 0; i < 50; ++i)  // 3 cm in waves of 4 mm, once 5 mm up
+    rows += fmt::format("{},{},{}\n", 0.03 * i / 50, 0.001 * std::abs(i % 8 - 4),
+                        i == 40 ? 0.005 : 0.0001 * (i % 3));
+  const std::string path = folder.file("hand.csv", rows);
+  const auto answers = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command{"query",      "--mesh",         "icosphere:3",  "--radius", "0.5%",
+                                     "--detector", "sphere-cluster", "--trajectory", path};
+    command.insert(command.end(), more.begin(), more.end());
+    const Outcome outcome = run_touchmark(command);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  const auto touching = [](std::istringstream text) {
+    std::size_t count = 0;
+    for (std::string row; std::getline(text, row);) count += row.substr(row.find(',') + 1, 2) == "1," ? 1 : 0;
+    return count;
+  };
+  const std::string contact = answers({"--drape"});
+  EXPECT_EQ(rows_in(contact), 50u);
+  EXPECT_EQ(touching(std::istringstream(contact)), 50u);
+  EXPECT_EQ(touching(std::istringstream(answers({}))), 0u);
+  EXPECT_EQ(answers({"--drape", "contact"}), contact);
+  EXPECT_EQ(answers({"--drape", "--seed", "1"}), contact);
+  const std::string free = answers({"--drape", "free"});
+  EXPECT_LT(touching(std::istringstream(free)), 50u);
+  EXPECT_GT(touching(std::istringstream(free)), 40u);
+  EXPECT_EQ(answers({"--drape=free", "--steps", "50"}), free);
+  EXPECT_NE(answers({"--drape", "--seed", "2"}), contact);
+  EXPECT_NE(answers({"--drape", "--unit", "cm"}), contact);
+  for (std::vector<std::string> command : {std::vector<std::string>{"verify"},
+                                           {"servo", "--seconds", "0.05"},
+                                           {"bench", "--quick", "--benchmark_min_time=0.001"},
+                                           {"choose", "--quick", "--minutes", "0.2"}}) {
+    for (const char* word : {"--mesh", "icosphere:2", "--detector", "brute-force", "--trajectory",
+                             path.c_str(), "--unit", "cm", "--drape", "free"})
+      command.emplace_back(word);
+    EXPECT_NE(run_touchmark(command).status, 2) << command[0];
+    command.back() = "loose";
+    expect_bad_input(command, {"--drape", "loose", "contact", "free"});
+  }
+}
+
 TEST(MotionFiles, BadInputIsOneLine) {
   const TemporaryFolder folder;
   const std::string uneven =
@@ -131,6 +179,10 @@ TEST(MotionFiles, BadInputIsOneLine) {
                    {"none.csv:1:", "--rate"});
   expect_bad_input(query("slide", {"--rate", "1000"}), {"--rate", "no --trajectory"});
   expect_bad_input(query("slide", {"--motion-scale", "2"}), {"--motion-scale", "no --trajectory"});
+  expect_bad_input(query("hand", {"--drape"}), {"--drape", "no --trajectory"});
+  expect_bad_input(query(folder.file("huge.csv", "x,y,z\n0,0,0\n1e200,0,0\n"), {"--drape"}),
+                   {"huge.csv", "--drape", "too large"});
+  expect_bad_input(query("hand:flat"), {"hand:flat", "contact", "free", "tap"});
   expect_bad_input(query(folder.file("long.csv", "t,x,y,z\n0,0,0,0\n1e12,0,0,0\n"), {"--rate", "1000"}),
                    {"long.csv", "1000000000000 s", "steps"});
 }
