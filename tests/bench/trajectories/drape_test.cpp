@@ -1,3 +1,5 @@
+#include "bench/trajectories/drape.h"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -148,23 +150,25 @@ TEST_F(DrapeTest, ClampsHeightsBetweenHalfTheRadiusInsideAndTheRadius) {
   EXPECT_GT(high, 3000u);
 }
 
+// Whether it is the side of few and high points, by which the third central moment would go, or the other.
 TEST_F(DrapeTest, TurnsTheSlowerSideInward) {
-  // Above the paper it moves five times as fast as on it.
-  Way way;
-  Vec3 at = Vec3::Zero();
-  for (int i = 0; i < 8000; ++i) {
-    const bool up = i / 1000 % 2 == 1;
-    at += (up ? 5e-5 : 1e-5) * Vec3(std::cos(i / 700.), 0.4 * std::sin(i / 400.), 0);
-    way.emplace_back(at.x(), at.y(), (up ? 3e-4 : -3e-4) + 1e-6 * std::sin(i / 9.));
-  }
   const TriangleMesh mesh = meshes::icosphere(5);
-  for (const double sign : {1., -1.}) {
-    for (Vec3& position : way) position.z() *= sign;
-    const std::vector<Vec3> laid = draped(written(way), mesh);
-    const std::vector<Contact> found = contacts(laid, mesh);
-    for (const int slow : {500, 2500, 4500}) {
-      EXPECT_LT((laid[slow] - found[slow].point).dot(laid[slow]), 0) << slow << ' ' << sign;
-      EXPECT_GT((laid[slow + 1000] - found[slow + 1000].point).dot(laid[slow]), 0) << slow << ' ' << sign;
+  for (const bool few_are_slow : {true, false}) {
+    Way way;
+    Vec3 at = Vec3::Zero();
+    for (int i = 0; i < 8000; ++i) {
+      const bool is_few = i / 500 % 4 == 3;
+      at += (is_few == few_are_slow ? 1e-5 : 5e-5) * Vec3(std::cos(i / 700.), 0.4 * std::sin(i / 400.), 0);
+      way.emplace_back(at.x(), at.y(), (is_few ? 6e-4 : -2e-4) + 1e-6 * std::sin(i / 9.));
+    }
+    for (const double sign : {1., -1.}) {
+      for (Vec3& position : way) position.z() *= sign;
+      const std::vector<Vec3> laid = draped(written(way), mesh);
+      const std::vector<Contact> found = contacts(laid, mesh);
+      for (const std::size_t few : {1750u, 3750u, 5750u}) {
+        EXPECT_EQ((laid[few] - found[few].point).dot(laid[few]) < 0, few_are_slow) << few << ' ' << sign;
+        EXPECT_LT(found[few - 1000].distance, 0.002);  // the median has height 0
+      }
     }
   }
 }
@@ -271,6 +275,65 @@ TEST_F(DrapeTest, KeepsTheSpeedsOfTheRecordings) {
     }
     for (const Contact& contact : contacts(laid, mesh))
       ASSERT_LE(contact.distance, radius_of_diagonal * mesh.diagonal());
+  }
+}
+
+/// Steps of the same length in one direction.
+Way straight(std::size_t rows, double step, double height) {
+  Way way;
+  for (std::size_t i = 0; i < rows; ++i) way.emplace_back(step * static_cast<double>(i), 0, height);
+  return way;
+}
+
+std::vector<Vec3> laid(const TriangleMesh& mesh, const Way& way, std::uint64_t seed) {
+  Motion motion{mesh, way.size(), support::Random(seed), mesh.diagonal(), 0};
+  return laid_on_surface(way, motion);
+}
+
+// Unfolded, the way over the crease between a floor and a wall is as straight as on the floor.
+TEST(LaidOnSurface, GoesStraightOnIntoAConcaveCrease) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 1}},
+                          {{0, 1, 2}, {1, 3, 2}, {1, 5, 3}, {1, 4, 5}});
+  constexpr double step = 0.01, height = 0.001;
+  int crossed = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const std::vector<Vec3> way = laid(mesh, straight(40, step, height), seed);
+    const auto inside = [](const Vec3& p) {
+      return p.x() > 0.05 && p.z() < 0.95 && p.y() > 0.05 && p.y() < 0.95;
+    };
+    const bool begins_inside = way.front().x() < 1 && way.front().z() > 0;
+    if (!begins_inside || !std::all_of(way.begin(), way.end(), inside)) continue;
+    for (const Vec3& p : way) {
+      ASSERT_LE(p.x(), 1) << seed;
+      ASSERT_GE(p.z(), 0) << seed;
+    }
+    const auto unfolded = [](const Vec3& p) {
+      return p.z() < 1 - p.x() ? Eigen::Vector2d(p.x(), p.y()) : Eigen::Vector2d(1 + p.z(), p.y());
+    };
+    const Eigen::Vector2d first = unfolded(way.front()), last = unfolded(way.back());
+    if ((first.x() < 1) == (last.x() < 1)) continue;
+    ++crossed;
+    EXPECT_NEAR((last - first).norm(), 39 * step, 3 * height) << seed;
+  }
+  EXPECT_GT(crossed, 5);
+}
+
+TEST(LaidOnSurface, IsNotThrownBetweenWallsThatAreTooClose) {
+  const TriangleMesh mesh({{0, 0, 0},
+                           {1, 0, 0},
+                           {0, 1, 0},
+                           {1, 1, 0},  // faces up
+                           {0, 0, 0.01},
+                           {1, 0, 0.01},
+                           {0, 1, 0.01},
+                           {1, 1, 0.01}},  // faces down
+                          {{0, 1, 2}, {1, 3, 2}, {4, 6, 5}, {5, 6, 7}});
+  constexpr double step = 0.001;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const std::vector<Vec3> way = laid(mesh, straight(200, step, 0.008), seed);
+    for (std::size_t i = 2; i < way.size(); ++i) {
+      ASSERT_LT((way[i] - way[i - 1]).norm(), 1.2 * step) << seed << ' ' << i;
+    }
   }
 }
 

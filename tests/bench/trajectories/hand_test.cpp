@@ -220,6 +220,26 @@ TEST(Hand, TapsAgainAndAgain) {
   }
 }
 
+TEST(Hand, LosesTheContactBetweenTapsOfAnyRadius) {
+  const TriangleMesh mesh = plate();
+  const double radius = 0.05;  // of the diagonal: 1 cm, farther than most strokes go
+  std::size_t lifted = 0;
+  const std::vector<double> heights = distances(made("hand:tap,speed=0.05", mesh, 400'000, radius), mesh);
+  for (std::size_t i = 1; i < heights.size(); ++i)
+    lifted += heights[i - 1] <= radius * mesh.diagonal() && heights[i] > radius * mesh.diagonal() ? 1 : 0;
+  EXPECT_GE(lifted, 15u);
+}
+
+TEST(Hand, TakesItsStrokesInAnyOrder) {
+  double slowest = infinity, fastest = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const double first = most(hands::speeds(on_a_plate(",noise=0,tremor=0", 500, seed)));
+    slowest = std::min(slowest, first);
+    fastest = std::max(fastest, first);
+  }
+  EXPECT_GT(fastest, 4 * slowest);
+}
+
 TEST(Hand, LeavesOutWhatAFactorOfZeroSays) {
   const std::vector<double> clean = hands::speeds(on_a_plate(",tremor=0,noise=0", 40'000));
   for (std::size_t i = 1; i < clean.size(); ++i)  // minimum jerk: no step differs much from the one before
