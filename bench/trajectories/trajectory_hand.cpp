@@ -101,7 +101,8 @@ double normal_number(support::Random& random) {
   return std::sqrt(2.) * sum;
 }
 
-/// The recordings hold seven readings of ten ticks: the sensor's clock goes on by one tick or by two.
+/// In the recordings seven rows hold ten readings: from row to row the sensor goes on by one reading or by
+/// two.
 double reading_time(std::size_t tick, double unsteadiness) {
   const auto steady = static_cast<double>(tick);
   return steady + unsteadiness * (0.7 * static_cast<double>(tick * 10 / 7) - steady);

@@ -14,6 +14,7 @@
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/float_limits.h"
 #include "tests/bench/trajectories/hand_measures.h"
+#include "tests/bench/trajectories/simple_meshes.h"
 
 namespace touchmark::bench::trajectories {
 namespace {
@@ -65,11 +66,6 @@ class DrapeTest : public testing::Test {
   }
 };
 
-/// A plate of two triangles and no thickness.
-TriangleMesh plane() {
-  return TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
-}
-
 std::vector<Contact> contacts(const std::vector<Vec3>& way, const TriangleMesh& mesh) {
   const AabbTree detector = AabbTree::build(mesh);
   AabbTree::Session session;
@@ -81,7 +77,7 @@ std::vector<Contact> contacts(const std::vector<Vec3>& way, const TriangleMesh& 
 double flat_step(const Way& way, std::size_t i) { return (way[i] - way[i - 1]).head<2>().norm(); }
 
 TEST_F(DrapeTest, KeepsTheStepsOnAPlane) {
-  const TriangleMesh mesh = plane();
+  const TriangleMesh mesh = plate();
   const Way way = scribble(20'000);
   const double metre = mesh.diagonal() / 0.2;
   const std::vector<Vec3> laid = draped(written(way), mesh);
@@ -117,7 +113,7 @@ TEST_F(DrapeTest, KeepsTheStepsOnASphereWithinOnePercent) {
 }
 
 TEST_F(DrapeTest, IsTheSameForARecordingTurnedAndMoved) {
-  for (const TriangleMesh& mesh : {plane(), meshes::icosphere(4)}) {
+  for (const TriangleMesh& mesh : {plate(), meshes::icosphere(4)}) {
     for (const Drape how : {Drape::contact, Drape::free}) {
       const std::vector<Vec3> laid = draped(written(scribble(5000)), mesh, how);
       Way turned = scribble(5000);
@@ -174,7 +170,7 @@ TEST_F(DrapeTest, TurnsTheSlowerSideInward) {
 }
 
 TEST_F(DrapeTest, FreeKeepsHeightsFromTheLowestUp) {
-  const TriangleMesh mesh = plane();
+  const TriangleMesh mesh = plate();
   Way way = scribble(10'000);
   for (Vec3& position : way) position.z() *= 30;
   const std::vector<Vec3> laid = draped(written(way), mesh, Drape::free);
@@ -218,7 +214,7 @@ TEST_F(DrapeTest, TakesTheMeshForTwentyCentimetresUnlessToldOtherwise) {
 }
 
 TEST_F(DrapeTest, ClampsByTheFilesOwnRadii) {
-  const TriangleMesh mesh = plane();
+  const TriangleMesh mesh = plate();
   Way way = scribble(5000);
   for (Vec3& position : way) position.z() *= 30;
   const std::vector<Vec3> laid = draped(written(way, ",radius", 0.002), mesh);  // 2 mm of 20 cm: 1 %
@@ -239,7 +235,7 @@ TEST_F(DrapeTest, TakesARecordingThatStandsAndOneOfASingleRow) {
 TEST_F(DrapeTest, RefusesCoordinatesWhoseVarianceOverflows) {
   const std::string file = written({{0, 0, 0}, {1e200, 0, 0}});
   try {
-    draped(file, plane());
+    draped(file, plate());
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_EQ(error.what(), file + ": the coordinates are too large for --drape");

@@ -54,7 +54,7 @@ class Spectrum {
     for (std::size_t begin = 0; begin + window <= velocity.size(); begin += window / 2)
       for (const int axis : axes) add(velocity, begin, axis);
   }
-  /// Of the whole.
+  /// Returns the part of all power that lies between two frequencies.
   double share(double from_hz, double to_hz) const {
     double all = 0, inside = 0;
     for (std::size_t i = 0; i < power_.size(); ++i) {

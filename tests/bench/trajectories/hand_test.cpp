@@ -10,32 +10,12 @@
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/float_limits.h"
 #include "tests/bench/trajectories/hand_measures.h"
+#include "tests/bench/trajectories/simple_meshes.h"
 
 namespace touchmark::bench::trajectories {
 namespace {
 
 using hands::Way;
-
-TriangleMesh plate() {
-  return TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
-}
-
-TriangleMesh cube() {
-  std::vector<Vec3> v;
-  for (int i = 0; i < 8; ++i) v.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
-  return TriangleMesh(v, {{0, 2, 1},
-                          {1, 2, 3},
-                          {4, 5, 6},
-                          {5, 7, 6},
-                          {0, 1, 4},
-                          {1, 5, 4},
-                          {2, 6, 3},
-                          {3, 6, 7},
-                          {0, 4, 2},
-                          {2, 4, 6},
-                          {1, 3, 5},
-                          {3, 7, 5}});
-}
 
 std::vector<Vec3> made(const std::string& name, const TriangleMesh& mesh, std::size_t steps,
                        double radius_of_diagonal = 0.005, std::uint64_t seed = 1,
