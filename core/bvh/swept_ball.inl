@@ -36,11 +36,11 @@ static void gather(const PreparedTriangle* triangles, const std::uint32_t* slots
 /// Three coordinates in each lane.
 struct WideVec {
   Wide x, y, z;
-
-  friend WideVec operator-(const WideVec& a, const WideVec& b) noexcept {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-  }
 };
+/// a - b; no friend operator, on which GCC 12 crashes, compiled for AVX2 in a program that is linked as one.
+static WideVec difference(const WideVec& a, const WideVec& b) noexcept {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 static Wide dot(const WideVec& a, const WideVec& b) noexcept { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
 /// a + part b
 static WideVec moved(const WideVec& a, Wide part, const WideVec& b) noexcept {
@@ -112,7 +112,7 @@ static unsigned kept_apart(const PreparedTriangle* triangles, const std::uint32_
     Wide size = largest(swept.way) + swept.radius;
     for (std::size_t i = 0; i < 3; ++i)
       swept.to[i] = {load(eight.to[3 * i] + at), load(eight.to[3 * i + 1] + at), load(eight.to[3 * i + 2] + at)};
-    for (std::size_t i = 0; i < 3; ++i) swept.edge[i] = swept.to[i] - swept.to[i == 2 ? 0 : i + 1];
+    for (std::size_t i = 0; i < 3; ++i) swept.edge[i] = difference(swept.to[i], swept.to[i == 2 ? 0 : i + 1]);
     size += max(largest(swept.to[0]), max(largest(swept.to[1]), largest(swept.to[2])));
     swept.error = ball.rounding * size;
     const Wide inverse = inverse_or_zero(dot(swept.way, swept.way));
