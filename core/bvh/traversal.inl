@@ -444,6 +444,7 @@ static float search_leaves(const Parts& tree, const FilterPoint& point, const Le
   return std::min(covered_radius * covered_radius, reduce_min(unseen));
 }
 
+#include "core/bvh/kept_nearest.inl"
 #include "core/bvh/list_near.inl"
 #include "core/bvh/plane_list.inl"
 #include "core/bvh/sweep_search.inl"

@@ -44,7 +44,7 @@ class SphereCluster {
   };
 
   /// What is remembered of one of many points, in six cache lines.
-  using FollowedPoint = spheres::FollowedPoint;
+  using FollowedPoint = bvh::FollowedPoint;
 
   /// Throws std::invalid_argument for a clustering distance that is negative, infinite or not a number, or
   /// for too many threads.

@@ -3,7 +3,7 @@
 namespace touchmark::spheres {
 
 // As memory.h says; and a short list of triangles takes no more than half a kilobyte.
-static_assert(sizeof(PointMemory) <= 10 * 1024 + 256 && sizeof(bvh::PlaneList<16, 0>) <= 512);
+static_assert(sizeof(PointMemory) <= 11 * 1024 && sizeof(bvh::PlaneList<16, 0>) <= 512);
 
 void remember_box(const WideBvh& bvh, const Vec3& center, double reach, double clearance,
                   PointMemory& memory) noexcept {

@@ -4,21 +4,18 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/bvh/kept_nearest.h"
 #include "core/bvh/wide_bvh.h"
-#include "core/geometry/point_triangle.h"
 #include "core/search/memory/last_distance.h"
 #include "core/search/plane_filter/plane_filter.h"
-#include "core/sphere_cluster/queries/followed_point.h"
 #include "core/sphere_cluster/queries/leaf_cache.h"
 #include "core/sphere_cluster/queries/neighborhood.h"
 
 namespace touchmark::spheres {
 
-/// What a haptic point remembers between ticks: 10 KB. The lower bound holds with all rounding included; the
+/// What a haptic point remembers between ticks: 11 KB. The lower bound holds with all rounding included; the
 /// upper one is the computed distance of the triangle in `slot`.
-struct PointMemory : LastDistance {
-  /// By which the point had moved then; infinite after `touches`, which refills no cache.
-  Vec3 move = Vec3::Zero();
+struct PointMemory : bvh::KeptNearest {
   /// A place that was found to be farther from the mesh than a radius, exactly; below 0: there is none.
   Vec3 free_center = Vec3::Zero();
   double free_radius = -1;
@@ -27,12 +24,11 @@ struct PointMemory : LastDistance {
   /// The planes of the triangle that `touches` found last, in one line, and its slot.
   TrianglePlanes touched{};
   std::uint32_t touched_slot = std::numeric_limits<std::uint32_t>::max();
-  /// So many more questions are for the mesh's box, which answered last.
-  std::uint32_t for_box = 0;
 
   /// Becomes as a new one is, and that in a few stores.
   void start_anew() noexcept {
     static_cast<LastDistance&>(*this) = {};
+    around.start_anew();
     move = free_center = Vec3::Zero();
     free_radius = -1;
     cache.start_anew();
@@ -73,7 +69,7 @@ inline bool is_clear(const WideBvh& bvh, const Sweep& sweep, const PointMemory& 
 }
 /// True if that is known of one of many points.
 inline bool is_clear(const WideBvh& bvh, const Vec3& center, double reach,
-                     const FollowedPoint& point) noexcept {
+                     const bvh::FollowedPoint& point) noexcept {
   const double margin = point.covered - reach;
   return point.epoch == bvh.epoch() && point.list.count == 0 && margin > 0 &&
          (center - point.center).squaredNorm() < margin * margin;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -5,6 +6,7 @@
 
 #include "core/search/around.h"
 #include "core/search/tracing.h"
+#include "core/sphere_cluster/queries/listed_search.h"
 #include "core/sphere_cluster/queries/near_leaves.h"
 #include "core/sphere_cluster/queries/nearest_visitor.h"
 #include "core/sphere_cluster/queries/queries.h"
@@ -63,12 +65,52 @@ template <class Ends>
   return ends.found(visitor, error, distance);
 }
 
+/// Keeps a copy of the nearest of those listed.
+void keep_nearest(const WideBvh& bvh, PointMemory& memory) noexcept {
+  const bvh::FollowedPoint& around = memory.around;
+  memory.triangle = bvh.parts().triangles[around.list.slot[around.nearest]];
+  memory.id = bvh.ids()[memory.triangle.index];
+}
+
+/// Lists the triangles around the point for the next ticks, if it moves so slowly that a list is going to
+/// answer many, and the last one did. `farthest` bounds the distance. Returns false where there is no list.
+[[gnu::noinline]] bool list_for_next(const WideBvh& bvh, const Vec3& center, const Vec3& move,
+                                     double farthest, PointMemory& memory, Work& work) noexcept {
+  constexpr double max_move = 0.03;  // in mean radii of the leaves
+  constexpr std::uint32_t answers_that_pay = 8;
+  bvh::FollowedPoint& around = memory.around;
+  if (!(move.norm() <= max_move * bvh.mean_leaf_radius()) || around.backoff.waits()) return false;
+  const bool paid = around.epoch != bvh.epoch() || around.answered >= answers_that_pay;
+  around.answered = answers_that_pay;
+  Work spent;
+  const bool is_listed = paid && list_anew(bvh, center, farthest, around, spent);
+  work += spent;
+  if (!is_listed) {
+    around.backoff.failed();
+    return false;
+  }
+  around.backoff.paid();
+  around.answered = 0;
+  return true;
+}
+
+/// Lists what is around the triangle that a search has found, and keeps it.
+void keep_found(const WideBvh& bvh, double farthest, PointMemory& memory, Work& work) noexcept {
+  bvh::FollowedPoint& around = memory.around;
+  if (!list_for_next(bvh, memory.center, memory.move, farthest, memory, work)) return;
+  const std::uint32_t* const first = around.list.slot;
+  const std::uint32_t* const place = std::find(first, first + around.list.count, memory.slot);
+  around.nearest = static_cast<std::uint32_t>(place - first);
+  around.nearest < around.list.count ? keep_nearest(bvh, memory) : memory.keep_none();
+}
+
 /// A search that ends with a contact.
 template <class Exhausted>
 struct ContactEnds {
   const Surface& surface;
   const Vec3& center;
   double reach;
+  PointMemory& memory;
   Work& work;
   const Exhausted& exhausted;
 
@@ -79,6 +121,7 @@ struct ContactEnds {
   }
   [[gnu::always_inline]] std::optional<Contact> found(const NearestVisitor& visitor, double error,
                                                       double distance) const noexcept {
+    keep_found(surface.bvh, distance + error, memory, work);
     return contact_found(surface, visitor, reach, error, distance, work);
   }
 };
@@ -112,6 +155,77 @@ struct CloseEnds {
   }
 };
 
+/// Searches in the order of docs/algorithms/sphere-cluster.md, from the step of the samples on.
+template <class Exhausted>
+[[gnu::noinline]] std::optional<Contact> nearest_searched(const Surface& surface, const Vec3& center,
+                                                          double reach, PointMemory& memory, Work& work,
+                                                          std::uint64_t budget,
+                                                          const Exhausted& exhausted) noexcept {
+  return search_nearest(surface.bvh, center, reach, memory, work, budget,
+                        ContactEnds<Exhausted>{surface, center, reach, memory, work, exhausted});
+}
+
+/// Looks at those listed, and lists them anew where they are not all that can be nearest. Returns false where
+/// that does not tell.
+bool search_around(const WideBvh& bvh, double reach, double error, NearestVisitor& visitor,
+                   PointMemory& memory) noexcept {
+  bvh::FollowedPoint& around = memory.around;
+  if (search_listed(bvh, reach, error, around, visitor)) return true;
+  if (!visitor.candidates.found()) return false;
+  const double farthest = std::sqrt(visitor.candidates.best().squared_distance) + error;
+  const Vec3& center = visitor.center;
+  return list_for_next(bvh, center, center - memory.center, farthest, memory, visitor.work) &&
+         search_listed(bvh, reach, error, around, visitor);
+}
+
+/// Looks at those listed around the point, else searches. `exhausted()` answers where that takes more than
+/// the budget.
+template <class Exhausted>
+[[gnu::noinline]] std::optional<Contact> nearest_around(const Surface& surface, const Vec3& center,
+                                                        double reach, PointMemory& memory, Work& work,
+                                                        std::uint64_t budget,
+                                                        const Exhausted& exhausted) noexcept {
+  const WideBvh& bvh = surface.bvh;
+  const FilterPoint point = bvh.frame().point(center);
+  const double error = bvh.frame().kernel_error(point.plane_error);
+  NearestVisitor visitor(bvh.parts(), bvh.frame(), center,
+                         bvh.frame().limit((reach + error) * (reach + error)), error);
+  const bool is_told = bvh.can_search(point) && search_around(bvh, reach, error, visitor, memory);
+  work += visitor.work;
+  if (!is_told) {
+    memory.keep_none();
+    return nearest_searched(surface, center, reach, memory, work, budget, exhausted);
+  }
+  ++memory.around.answered;
+  keep_nearest(bvh, memory);
+  memory.move = center - memory.center;
+  memory.center = center;
+  memory.upper = std::sqrt(visitor.candidates.best().squared_distance);
+  memory.lower = std::min(memory.upper, reach) * (1 - 0x1p-40) - clearance_pad(bvh, point);
+  if (!visitor.candidates.found()) return std::nullopt;
+  memory.slot = visitor.candidates.at();
+  return contact_found(surface, visitor, reach, error, memory.upper, work);
+}
+
+/// Answers from what is kept, else looks around, else searches.
+template <class Exhausted>
+[[gnu::always_inline]] inline std::optional<Contact> nearest_of(const Surface& surface, const Vec3& center,
+                                                                double reach, PointMemory& memory, Work& work,
+                                                                std::uint64_t budget,
+                                                                const Exhausted& exhausted) noexcept {
+  const WideBvh& bvh = surface.bvh;
+  prefetch_lines(&memory, sizeof(bvh::KeptNearest));
+  if (!memory.keeps(bvh.epoch()))
+    return nearest_searched(surface, center, reach, memory, work, budget, exhausted);
+  const auto look_around = [&] {
+    return nearest_around(surface, center, reach, memory, work, budget, exhausted);
+  };
+  return bvh::with_isa(bvh.simd(), [&](auto isa) {
+    return isa.nearest_kept(bvh.frame(), bvh.parts().triangles.data(), center, reach, memory, work,
+                            look_around);
+  });
+}
+
 }  // namespace
 
 std::optional<Contact> nearest(const Surface& surface, const Vec3& center, double reach, PointMemory& memory,
@@ -119,8 +233,7 @@ std::optional<Contact> nearest(const Surface& surface, const Vec3& center, doubl
   const auto exhausted = [&] {
     return scan_of(surface.bvh, surface.certified, work).nearest(center, reach, work);
   };
-  return search_nearest(surface.bvh, center, reach, memory, work, max_nearest_work(surface.bvh),
-                        ContactEnds<decltype(exhausted)>{surface, center, reach, work, exhausted});
+  return nearest_of(surface, center, reach, memory, work, max_nearest_work(surface.bvh), exhausted);
 }
 
 bool close_triangles(const Surface& surface, const Vec3& center, double reach, double slack,
@@ -137,8 +250,7 @@ WithinBudget nearest_within_budget(const Surface& surface, const Vec3& center, d
     return std::nullopt;
   };
   std::optional<Contact> contact =
-      search_nearest(surface.bvh, center, reach, memory, work, max_work(surface.bvh),
-                     ContactEnds<decltype(exhausted)>{surface, center, reach, work, exhausted});
+      nearest_of(surface, center, reach, memory, work, max_work(surface.bvh), exhausted);
   return {std::move(contact), is_exhausted};
 }
 

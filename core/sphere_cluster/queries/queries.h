@@ -19,8 +19,8 @@ bool touches(const Surface& surface, const Probe& probe, PointMemory& memory, Wo
 std::optional<Contact> nearest(const Surface& surface, const Vec3& center, double reach, PointMemory& memory,
                                Work& work) noexcept;
 /// Answers for one of many points, of which little is remembered (followed.cpp).
-std::optional<Contact> nearest(const Surface& surface, const Vec3& center, double reach, FollowedPoint& point,
-                               Work& work) noexcept;
+std::optional<Contact> nearest(const Surface& surface, const Vec3& center, double reach,
+                               bvh::FollowedPoint& point, Work& work) noexcept;
 std::optional<Impact> first_hit(const Surface& surface, const Sweep& sweep, PointMemory& memory,
                                 Work& work) noexcept;
 std::size_t contacts(const Surface& surface, const Vec3& center, double reach, PointMemory& memory,
