@@ -24,6 +24,8 @@ struct alignas(64) FollowedPoint {
   PlaneList<16, 0> list;       ///< filled up with what is infinitely far, where something is listed
   std::uint32_t answered = 0;  ///< questions of a session that this list has answered
 
+  /// True if what is not listed is farther than `distance` from a point that is `moved` from the centre.
+  bool covers(double distance, double moved) const noexcept { return distance + moved < covered; }
   /// Becomes as a new one is, for which the arrays need not be cleared.
   void start_anew() noexcept {
     epoch = {};

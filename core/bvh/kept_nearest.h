@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "core/bvh/followed_point.h"
 #include "core/geometry/point_triangle.h"
@@ -27,6 +28,14 @@ struct alignas(64) KeptNearest : LastDistance {
   /// True if a triangle of this structure is kept.
   bool keeps(const Epoch& structure) const noexcept {
     return around.epoch == structure && around.nearest != nowhere;
+  }
+  /// Clears the kept triangle's bit in bits of those listed.
+  unsigned others(unsigned listed) const noexcept { return listed & ~(1U << around.nearest); }
+  /// The contact of a point with the kept triangle, which is `offset` away, if that is within the reach.
+  std::optional<Contact> contact(const Vec3& point, const Vec3& offset, double distance,
+                                 double reach) const noexcept {
+    if (distance > reach) return std::nullopt;
+    return Contact{point - offset, Vec3(offset / distance), distance, id, Side::unasked};
   }
   /// What is listed is no longer asked, but tells where the point came from.
   void keep_none() noexcept { around.nearest = nowhere; }

@@ -50,11 +50,10 @@ template <class Otherwise>
   const double length = moved.norm() * (1 + 0x1p-40);
   const double others = distance + 4 * error;
   const double others_in_frame = std::min(others * frame.scale() * (1 + 0x1p-20), double{farthest});
-  unsigned near = listed_within(around, MoveInFrame(moved, frame.scale()),
-                                      static_cast<float>(length * frame.scale() * (1 + 0x1p-20)),
-                                      static_cast<float>(others_in_frame));
-  near &= ~(1U << around.nearest);
-  if (!(others + length + error < around.covered && distance > error && std::abs(distance - reach) > error &&
+  const unsigned near = kept.others(listed_within(
+      around, MoveInFrame(moved, frame.scale()),
+      static_cast<float>(length * frame.scale() * (1 + 0x1p-20)), static_cast<float>(others_in_frame)));
+  if (!(around.covers(others, length + error) && distance > error && std::abs(distance - reach) > error &&
         (near == 0 || are_farther(triangles, near, others, error, center, frame.scale(), around, work))))
     return otherwise();
   if constexpr (tracing) note_triangle(kept.triangle.index);
@@ -65,6 +64,5 @@ template <class Otherwise>
   kept.center = center;
   kept.upper = distance;
   kept.lower = distance * (1 - 0x1p-40) - error;
-  if (distance > reach) return std::nullopt;
-  return Contact{center - offset.vector, Vec3(offset.vector / distance), distance, kept.id, Side::unasked};
+  return kept.contact(center, offset.vector, distance, reach);
 }

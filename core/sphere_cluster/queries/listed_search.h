@@ -84,7 +84,7 @@ bool search_listed(const WideBvh& bvh, double reach, double error, FollowedPoint
     look_at(i);
   }
   const double uncovered = moved.norm() * (1 + 0x1p-40) + error;
-  return farthest + 4 * error + uncovered < followed.covered;
+  return followed.covers(farthest + 4 * error, uncovered);
 }
 
 /// Lists what is near the point, or near where it goes, as far as `farthest` and a margin. Returns false
