@@ -70,7 +70,7 @@ const workload::Workload& with_room(const workload::Workload& workload) {
 /// walked over to empty them: all workers walk over the output that they share.
 std::size_t steps_for_cold(const Effort& effort) {
   if (effort.cold_passes == 0) return 0;
-  const std::size_t samples = std::max(effort.cold_samples, effort.cold_l2_samples) / effort.cold_passes;
+  const std::size_t samples = effort.of_cold_pass(std::max(effort.cold_samples, effort.cold_l2_samples));
   const std::size_t walked_over = 1 + workers::eviction_sizes().all / workers::OutputBuffers::bytes_for(1);
   return std::max(cold_floor_samples + samples, walked_over);
 }

@@ -12,6 +12,17 @@ double percentile(const std::vector<double>& sorted, double fraction) {
   return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
+/// Ranks that a quantile lies between, by the normal approximation of the binomial distribution.
+QuantileBounds bounds(const std::vector<double>& sorted, double fraction) {
+  constexpr double normal_95 = 1.96;
+  const auto size = static_cast<double>(sorted.size());
+  const double margin = normal_95 * std::sqrt(size * fraction * (1 - fraction));
+  const auto at = [&](double rank) {
+    return sorted[static_cast<std::size_t>(std::clamp(rank, 1.0, size)) - 1];
+  };
+  return {at(std::floor(size * fraction - margin)), at(std::ceil(size * fraction + margin) + 1)};
+}
+
 DeadlineMisses count_misses(std::span<const double> ns, const std::vector<workload::StepRange>& ranges,
                             double period_ns) {
   DeadlineMisses count;
@@ -41,6 +52,7 @@ LatencySummary summarize_latency(std::span<const double> ns, const std::vector<w
   for (std::size_t i = 0; i < deadlines_hz.size(); ++i) {
     summary.deadlines[i] = count_misses(ns, ranges, 1e9 / deadlines_hz[i]);
   }
+  summary.p999_bounds = bounds(sorted, 0.999);
   return summary;
 }
 
@@ -48,7 +60,7 @@ ColdSummary summarize_cold(std::span<const double> ns) {
   std::vector<double> sorted(ns.begin(), ns.end());
   std::sort(sorted.begin(), sorted.end());
   return {sorted.size(), percentile(sorted, 0.5), percentile(sorted, 0.99), percentile(sorted, 0.999),
-          sorted.back()};
+          sorted.back(), bounds(sorted, 0.5),     bounds(sorted, 0.99)};
 }
 
 std::vector<double> median_per_step(const std::vector<std::vector<double>>& passes) {

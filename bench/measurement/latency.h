@@ -18,15 +18,22 @@ struct DeadlineMisses {
   std::size_t max_run = 0;  ///< how many neighbouring steps missed it one after the other
 };
 
+/// Where a quantile of all that might have been sampled lies, with 95 % confidence: two of the samples.
+struct QuantileBounds {
+  double low = 0, high = 0;
+};
+
 struct LatencySummary {
   double p50 = 0, p90 = 0, p99 = 0, p999 = 0, max = 0;  ///< ns, nearest rank
   std::array<DeadlineMisses, deadlines_hz.size()> deadlines;
+  QuantileBounds p999_bounds{};  ///< as if no step's time had to do with another's
 };
 
 /// Queries with emptied caches.
 struct ColdSummary {
   std::size_t samples = 0;
   double p50 = 0, p99 = 0, p999 = 0, max = 0;  ///< ns, nearest rank
+  QuantileBounds p50_bounds{}, p99_bounds{};
 };
 
 /// At least one sample.

@@ -76,13 +76,12 @@ void Measurement::take_cold_samples(std::size_t bytes, std::size_t max_samples, 
 void Measurement::cold_pass() {
   const workers::EvictionSizes sizes = workers::eviction_sizes();
   constexpr double share_of_l2 = 0.25;  // of the time
-  const std::size_t passes = effort_.cold_passes;
-  const double budget = effort_.cold_budget_ns / static_cast<double>(passes);
+  const double budget = effort_.cold_budget_ns / static_cast<double>(effort_.cold_passes);
   attempt([&] {
-    take_cold_samples(sizes.second_level, effort_.cold_l2_samples / passes, share_of_l2 * budget, cold_l2_ns_,
-                      floor_l2_ns_);
-    take_cold_samples(sizes.all, effort_.cold_samples / passes, (1 - share_of_l2) * budget, cold_ns_,
-                      floor_ns_);
+    take_cold_samples(sizes.second_level, effort_.of_cold_pass(effort_.cold_l2_samples), share_of_l2 * budget,
+                      cold_l2_ns_, floor_l2_ns_);
+    take_cold_samples(sizes.all, effort_.of_cold_pass(effort_.cold_samples), (1 - share_of_l2) * budget,
+                      cold_ns_, floor_ns_);
   });
 }
 

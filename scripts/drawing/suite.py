@@ -21,6 +21,9 @@ class Row(Record):
     def __init__(self, record, line):
         super().__init__(record, line, TEXTS, RATIOS)
         self.shape, _, self.speed = self.trajectory.partition(":speed=")
+        for column in RATIOS:
+            if record.get(column.replace("_ratio", "_counts")) == "0":  # of the stress, or too short to be compared
+                setattr(self, column, math.nan)
 
     def properties(self):
         """(group, value) of each column of the picture that this cell is in."""
@@ -97,7 +100,7 @@ def draw_suite(plt, rows, column, source):
         spine.set_visible(False)
     legend = [plt.Rectangle((0, 0), 1, 1, facecolor=colours(shade(ratio)), label=f"{ratio:g}") for ratio in (0.25, 0.5, 1, 2, 4, 8)]
     legend += [plt.Rectangle((0, 0), 1, 1, facecolor="white", edgecolor="black", linewidth=1.6, label="framed: a rival is ahead"),
-               plt.Rectangle((0, 0), 1, 1, facecolor="white", edgecolor="0.8", hatch="///", label="not measured")]
+               plt.Rectangle((0, 0), 1, 1, facecolor="white", edgecolor="0.8", hatch="///", label="not measured, or in no score")]
     measured = sum(1 for row in rows if getattr(row, column) > 0)
     label(figure, "The suite: fastest rival's time over ours, worst cell of each property",
           f"{SHOWN[column]}; {len(meshes)} scenes, {measured} of {len(rows)} cells; above 1 the best of ours is ahead", source,

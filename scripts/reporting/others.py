@@ -100,7 +100,9 @@ def value_cell(column, text):
 
 
 def ratio(record):
-    """How often longer the fastest exact rival took than the best of ours; NaN where one of them has no time."""
+    """How often longer the fastest exact rival took than the best of ours; NaN where one has no time, or it is in no score."""
+    if record.get("exact_counts") == "0":
+        return math.nan
     return (finite(record.get("exact_ratio")) or [math.nan])[0]
 
 
@@ -112,7 +114,7 @@ def sentence_of_suite(records):
     worst = min(known, key=ratio)
     return (f"<p>In {ahead:,} of {len(known):,} cells the best of ours is faster than the fastest exact rival; over all, the rival takes "
             f"<strong>{geometric_mean(map(ratio, known)):.2f} times</strong> as long. The worst cell: {ratio(worst):.2f} times, "
-            f"{escaped(question_of(worst))}.{f' {len(records) - len(known):,} more have no such pair of times.' if len(records) > len(known) else ''}</p>")
+            f"{escaped(question_of(worst))}.{f' {len(records) - len(known):,} more have no such pair of times, or are in no score.' if len(records) > len(known) else ''}</p>")
 
 
 def question_of(record):

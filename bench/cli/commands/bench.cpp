@@ -36,7 +36,7 @@ namespace touchmark::bench::cli {
 namespace {
 
 constexpr std::size_t faulty_rows_shown = 20;
-const std::vector<std::string> default_trajectories{"slide", "slide:speed=0.4%", "approach", "hover", "jump"};
+const std::vector<std::string> default_trajectories{"hand", "approach", "hover", "jump"};
 
 struct BenchOptions {
   contestants::Selectors selectors;
@@ -44,7 +44,8 @@ struct BenchOptions {
   bool quick = false;
   bool frontier = false;
   bool work = false;
-  bool cold = false;
+  bool cold = true;
+  std::string cold_samples;
   bool wide = false;
   bool cache_lines = false;
   bool suite = false;
@@ -60,10 +61,15 @@ measurement::Effort effort_for(const BenchOptions& options, const BenchmarkFlags
   effort.repetitions = flags.repetitions.value_or(effort.repetitions);
   if (options.cold) {
     effort.cold_passes = options.quick ? measurement::quick_cold_passes : measurement::usual_cold_passes;
+    if (options.quick) {
+      effort.cold_samples = measurement::quick_cold_samples;
+      effort.cold_l2_samples = measurement::quick_cold_l2_samples;
+    }
     effort.cold_budget_ns =
         (options.quick ? measurement::quick_cold_budget_ns : measurement::usual_cold_budget_ns) /
         static_cast<double>(std::max<std::size_t>(rows, 1));
   }
+  if (!options.cold_samples.empty()) effort.take_all_cold(cold_samples_of(options.cold_samples));
   if (options.cache_lines)
     effort.line_samples = options.quick ? measurement::quick_line_samples : measurement::usual_line_samples;
   if (!options.out.empty() || !options.steps_out.empty())
@@ -247,8 +253,13 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       ->excludes("--detector");
   command->add_flag("--work", options->work, "also what a step looked at, and so what it skipped");
   command->add_flag("--wide", options->wide, "tables with all columns and whole names, in the order asked");
-  command->add_flag("--cold,!--no-cold", options->cold,
-                    "also queries with the second-level cache, or all caches, emptied between them");
+  CLI::Option* const cold = command->add_flag(
+      "--cold,!--no-cold", options->cold,
+      "also queries with the second-level cache, or all caches, emptied between them; default: yes");
+  add_value(*command, "--cold-samples", options->cold_samples, "N",
+            "take all of N queries with all caches emptied a row, and 10 N with the second-level cache "
+            "emptied; default: up to 400, as many as fit into 30 s")
+      ->excludes(cold);
   command->add_flag("--cache-lines", options->cache_lines,
                     "also how many cache lines a query touches, as valgrind counts them");
   command->add_flag("--quick", options->quick, "fewer steps and repetitions");
@@ -272,8 +283,9 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       expect_options_of_suite(*command);
       if (!flags.out.empty()) throw std::invalid_argument("--benchmark_out does not go with --suite");
       if (!context.parts.run_suite) continue_in_extra_program(context);
-      context.status = context.parts.run_suite(context, {options->selectors, options->out, options->cells,
-                                                         options->minutes, options->quick, options->workers});
+      context.status = context.parts.run_suite(
+          context, {options->selectors, options->out, options->cells, options->minutes, options->cold_samples,
+                    options->quick, options->workers});
       return;
     }
     if (options->frontier) {

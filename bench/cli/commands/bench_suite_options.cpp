@@ -5,18 +5,23 @@
 
 #include "bench/cli/extra/bench_suite.h"
 #include "bench/cli/options.h"
+#include "bench/support/checked.h"
 
 namespace touchmark::bench::cli {
+
+std::size_t cold_samples_of(const std::string& text) {
+  return support::checked_count("--cold-samples", text, 1, 100'000);
+}
 
 void add_suite(CLI::App& command, bool& suite, std::string& cells, std::string& minutes) {
   CLI::Option* const flag = command.add_flag(
       "--suite", suite,
       "a score over many meshes, motions, speeds, queries and reaches instead; with --mesh on "
       "that mesh alone");
-  add_value(command, "--cells", cells, "N", "of the suite: how many a mesh, or all; default: 12, quick 2")
+  add_value(command, "--cells", cells, "N", "of the suite: how many a mesh, or all; default: 6, quick 2")
       ->needs(flag);
   add_value(command, "--minutes", minutes, "M",
-            "of the suite: what does not fit is left out and said so; default: 15, quick 1.5")
+            "of the suite: what does not fit is left out and said so; default: no limit")
       ->needs(flag);
 }
 

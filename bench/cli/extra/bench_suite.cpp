@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -34,7 +36,7 @@ namespace suite = experiments::suite;
 
 namespace {
 
-constexpr std::size_t losses_shown = 40;
+constexpr std::size_t losses_shown = 40, uncounted_shown = 40;
 constexpr std::chrono::milliseconds build_timeout{60'000}, request_timeout{10'000};
 
 /// How much of the suite is measured, and how thoroughly.
@@ -42,12 +44,14 @@ struct Extent {
   std::uint64_t triangles;
   std::size_t cells;
   std::size_t steps;
-  double minutes;
+  double about_minutes;        ///< on two cores, with every rival
   measurement::Effort effort;  ///< its cold passes are of the cold cells only
+  double minutes = std::numeric_limits<double>::infinity();
 };
 
-const Extent usual_extent{60'000, 12, 6000, 15, {8, 3, 8e6, 4e6, 1, 20, 20}};
+const Extent usual_extent{60'000, 6, 6000, 25, {8, 3, 8e6, 4e6}};
 const Extent quick_extent{9'000, 2, 2000, 1.5, {5, 3, 3e6, 1.5e6}};
+constexpr std::size_t usual_cold_samples = 100;
 
 std::size_t checked_cells(const std::string& text) {
   const std::size_t most = suite::every_cell().size();
@@ -63,6 +67,10 @@ Extent extent_of(const SuiteOptions& options) {
   if (!options.cells.empty()) extent.cells = checked_cells(options.cells);
   if (!options.minutes.empty())
     extent.minutes = support::checked_positive("--minutes", options.minutes, support::Infinity::allowed);
+  if (!options.cold_samples.empty())
+    extent.effort.take_all_cold(cold_samples_of(options.cold_samples));
+  else if (!options.quick)
+    extent.effort.take_all_cold(usual_cold_samples);
   return extent;
 }
 
@@ -97,6 +105,7 @@ class SuiteRun {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() / 60;
   }
   std::string time_left() const;
+  std::string duration_text() const;
 
   const contestants::Roster& roster_;
   const SuiteOptions& options_;
@@ -143,7 +152,16 @@ std::string SuiteRun::time_left() const {
   if (cells_done_ == 0) return "";
   const double left =
       minutes() / static_cast<double>(cells_done_) * static_cast<double>(plan_.cells() - cells_done_);
-  return fmt::format(", about {:.0f} min left", std::min(left, extent_.minutes));
+  return fmt::format(", about {:.0f} min left", std::min(left, std::max(extent_.minutes - minutes(), 0.0)));
+}
+
+std::string SuiteRun::duration_text() const {
+  if (std::isfinite(extent_.minutes)) return fmt::format("at most about {:g} minutes", extent_.minutes);
+  const Extent& planned = options_.quick ? quick_extent : usual_extent;
+  const bool is_usual = options_.selectors.meshes.empty() && options_.cells.empty();
+  return is_usual
+             ? fmt::format("all of them measured, in about {:g} minutes on two cores", planned.about_minutes)
+             : "all of them measured";
 }
 
 /// Every mesh has its share of the time, and what one leaves over is for those after it.
@@ -237,9 +255,8 @@ void SuiteRun::save(bool finished) const {
 }
 
 int SuiteRun::run() {
-  out_.write(fmt::format("suite: {} scenes, {} cells of {}, at most about {:g} minutes\n",
-                         plan_.meshes.size(), plan_.cells(), plan_.meshes.size() * suite::every_cell().size(),
-                         extent_.minutes));
+  out_.write(fmt::format("suite: {} scenes, {} cells of {}, {}\n", plan_.meshes.size(), plan_.cells(),
+                         plan_.meshes.size() * suite::every_cell().size(), duration_text()));
   out_.finish();
   const bool finished = frame_.finishes([this] {
     for (const suite::SuiteMesh& planned : plan_.meshes) run_mesh(planned);
@@ -250,6 +267,8 @@ int SuiteRun::run() {
     save(false);
   }
   out_.write('\n' + suite::summary_table(scored_) + '\n' + suite::list_of_losses(scored_, losses_shown));
+  const std::string uncounted = suite::list_of_uncounted(scored_, uncounted_shown);
+  if (!uncounted.empty()) out_.write('\n' + uncounted);
   out_.finish();
   if (!finished) return interrupted(rows_.size());
   const auto where = [](const measurement::ResultRow& row) { return row.mesh + ", " + row.trajectory; };

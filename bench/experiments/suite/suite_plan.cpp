@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,8 +16,11 @@
 namespace touchmark::bench::experiments::suite {
 namespace {
 
+constexpr std::array hands{"hand", "hand:free", "hand:tap"};
 constexpr std::array moving{"slide", "approach", "hover"};
-constexpr std::array speeds{"0.01%", "0.1%", "0.7%", "5%"};
+/// Recorded hands move 0.004 % of the diagonal a tick at the median, and 0.11 % at 99 %.
+constexpr std::array speeds_of_hands{"0.01%", "0.2%"}, speeds_of_stress{"0.7%", "5%"};
+constexpr std::size_t cells_a_stress = 6;
 constexpr std::array reaches{"0.05%", "0.5%", "5%", "inf"};
 
 /// Few triangles of this kind are as hard as many of others.
@@ -73,19 +77,21 @@ std::size_t SuitePlan::cells() const noexcept {
 }
 
 std::vector<SuiteCell> every_cell() {
-  std::vector<std::string> trajectories{"jump"};
-  for (const char* shape : moving) {
-    for (const char* speed : speeds) trajectories.push_back(fmt::format("{}:speed={}", shape, speed));
-  }
   std::vector<SuiteCell> cells;
-  for (const std::string& trajectory : trajectories) {
+  const auto add = [&cells](const std::string& trajectory, bool stress) {
     for (const workload::Query query : workload::all_queries) {
       for (const std::string reach : reaches) {
         if (reach == "inf" && query != workload::Query::nearest) continue;
-        cells.push_back({trajectory, query, reach});
+        cells.push_back({trajectory, query, reach, stress});
       }
     }
+  };
+  for (const char* hand : hands) add(hand, false);
+  for (const char* shape : moving) {
+    for (const char* speed : speeds_of_hands) add(fmt::format("{}:speed={}", shape, speed), false);
+    for (const char* speed : speeds_of_stress) add(fmt::format("{}:speed={}", shape, speed), true);
   }
+  add("jump", true);
   return cells;
 }
 
@@ -118,19 +124,24 @@ SuitePlan make_plan(const std::vector<std::string>& meshes, std::size_t cells_ea
                     bool cold) {
   support::Random random(seed);
   SuitePlan plan;
-  std::vector<std::vector<SuiteCell>> left;
+  std::vector<std::array<std::vector<SuiteCell>, 2>> left;  // cells of hands, and of the stress
   std::vector<Counts> of_mesh(meshes.size());
   Counts of_all;
   for (const std::string& mesh : meshes) {
     plan.meshes.push_back({mesh, {}});
-    left.push_back(every_cell());
-    random.shuffle(left.back());  // decides between cells whose properties came up equally often
+    std::vector<SuiteCell> all = every_cell();
+    random.shuffle(all);  // decides between cells whose properties came up equally often
+    auto& sections = left.emplace_back();
+    for (SuiteCell& cell : all) sections[cell.stress ? 1 : 0].push_back(std::move(cell));
   }
-  for (std::size_t round = 0; round < cells_each; ++round) {
-    for (std::size_t i = 0; i < meshes.size() && !left[i].empty(); ++i)
-      plan.meshes[i].cells.push_back(take_rarest(left[i], of_mesh[i], of_all));
+  for (std::size_t round = 0; round < std::min(cells_each, every_cell().size()); ++round) {
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      const bool stress =
+          left[i][0].empty() || (round % cells_a_stress == cells_a_stress - 1 && !left[i][1].empty());
+      plan.meshes[i].cells.push_back(take_rarest(left[i][stress ? 1 : 0], of_mesh[i], of_all));
+      plan.meshes[i].cells.back().cold = cold && !stress;
+    }
   }
-  for (SuiteMesh& planned : plan.meshes) planned.cells.back().cold = cold;
   return plan;
 }
 

@@ -1,22 +1,36 @@
 /// What `touchmark bench --suite` measures: cells of mesh, motion, question and reach, as many of each kind
-/// as of any other, however few are chosen.
+/// as of any other, however few are chosen. Motions that no hand makes are a section "stress".
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "bench/support/names.h"
 #include "bench/workload/answer.h"
 
 namespace touchmark::bench::experiments::suite {
+
+/// Which caches are emptied before each query.
+enum class Caches { warm, l2, cold };
+
+inline constexpr std::array<support::Name<Caches>, 3> cache_names{
+    {{Caches::warm, "warm"}, {Caches::l2, "l2"}, {Caches::cold, "cold"}}};
+constexpr std::string_view name_of(Caches caches) { return support::name_in(cache_names, caches); }
 
 /// One thing to measure on a mesh.
 struct SuiteCell {
   std::string trajectory;  ///< as --trajectory takes it: "slide:speed=0.1%"
   workload::Query query = workload::Query::nearest;
-  std::string reach;  ///< as --reach takes it; "inf" is of `nearest` only
-  bool cold = false;  ///< also with emptied caches
+  std::string reach;    ///< as --reach takes it; "inf" is of `nearest` only
+  bool stress = false;  ///< of a motion that no hand makes: counts in no score
+  bool cold = false;    ///< also with emptied caches
+
+  /// True if the motion stays within the probe's radius of the surface.
+  bool is_in_contact() const { return trajectory == "hand" || trajectory.starts_with("slide"); }
 
   /// Returns the probe's radius, as --radius takes it: the reach, so that a slide stays within it.
   std::string radius() const { return reach == "inf" ? "0.5%" : reach; }
@@ -33,8 +47,9 @@ struct SuitePlan {
   std::size_t cells() const noexcept;
 };
 
-/// Returns every cell of one mesh: four speeds of three motions and one without coherence, three queries,
-/// four reaches; all that makes sense.
+/// Returns every cell of one mesh: motions, three queries, four reaches; all that makes sense. The motions
+/// are the kinds of `hand`, and three others at two speeds of hands; of the stress these at two higher
+/// speeds, and one without coherence.
 std::vector<SuiteCell> every_cell();
 
 /// Returns the meshes: every kind that comes in any size, from about a sixth of `triangles` to twice as many,
@@ -42,9 +57,9 @@ std::vector<SuiteCell> every_cell();
 std::vector<std::string> suite_meshes(std::uint64_t triangles);
 
 /// Chooses `cells_each` cells, at least 1, for every mesh (all, where there are not so many), such that over
-/// the plan the motions, and the queries with their reaches, come up equally often, as in all cells. A plan
-/// of fewer cells is the beginning of one of more. Where `cold`, the last of each mesh is also measured so:
-/// it takes longest, and is what is left out where time is short.
+/// the plan the motions, and the queries with their reaches, come up equally often in each section. Every
+/// sixth is of the stress. A plan of fewer cells is the beginning of one of more. Where `cold`, all but the
+/// stress are also measured so.
 SuitePlan make_plan(const std::vector<std::string>& meshes, std::size_t cells_each, std::uint64_t seed,
                     bool cold = true);
 

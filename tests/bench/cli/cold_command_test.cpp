@@ -1,4 +1,4 @@
-/// `touchmark bench --cold` from the outside. No time is demanded of this machine.
+/// What `touchmark bench` does with emptied caches, from the outside. No time is demanded of this machine.
 #include <map>
 #include <string>
 #include <vector>
@@ -37,7 +37,7 @@ std::map<std::string, std::string> first_row(const Fields& more, Outcome& outcom
 
 TEST(Cold, FillsItsColumnsAndPrintsTheFloor) {
   Outcome outcome;
-  const auto row = first_row({"--cold"}, outcome);
+  const auto row = first_row({}, outcome);
   EXPECT_EQ(row.at("status"), "ok") << outcome.err;
   for (const char* column : {"cold_l2_ns_p50", "cold_ns_p50", "cold_ns_max"})
     EXPECT_NE(row.at(column), "") << column;
@@ -50,9 +50,22 @@ TEST(Cold, FillsItsColumnsAndPrintsTheFloor) {
   EXPECT_NE(outcome.out.find("nothing asked"), std::string::npos) << outcome.out;
 }
 
-TEST(Cold, IsLeftAloneUnlessAskedFor) {
+TEST(Cold, TakesAllOfTheSamplesAskedFor) {
   Outcome outcome;
-  const auto row = first_row({}, outcome);
+  const auto row = first_row({"--cold-samples", "7"}, outcome);
+  EXPECT_EQ(row.at("cold_samples"), "7") << outcome.err;
+  EXPECT_EQ(row.at("cold_l2_samples"), "70");
+  for (const Fields& bad : {Fields{"--cold-samples", "0"}, Fields{"--cold-samples", "many"},
+                            Fields{"--cold-samples", "7", "--no-cold"}}) {
+    Fields command{"bench", "--mesh", "icosphere:2"};
+    command.insert(command.end(), bad.begin(), bad.end());
+    EXPECT_EQ(run_touchmark(command).status, 2) << bad[1];
+  }
+}
+
+TEST(Cold, IsLeftOutWhereThatIsAskedFor) {
+  Outcome outcome;
+  const auto row = first_row({"--no-cold"}, outcome);
   for (const std::string& column : cold_columns) EXPECT_EQ(row.at(column), "") << column;
   EXPECT_EQ(outcome.out.find("nothing asked"), std::string::npos) << outcome.out;
 }

@@ -1,5 +1,6 @@
 /// `touchmark bench --suite` from the outside.
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,29 @@ TEST_F(Suite, OneMeshGetsAScoreAndLeavesWhatIsValid) {
   nlohmann::json run;
   std::ifstream(folder_.file("out/run.json")) >> run;
   EXPECT_EQ(run["suite"]["cells"], 3);
+}
+
+TEST_F(Suite, MeasuresAllThatItPlansAndAsManyColdQueriesAsAskedFor) {
+  const Outcome outcome = suite({"--mesh", "icosphere:2", "--cells", "6", "--cold-samples", "3", "--steps",
+                                 "200", "--detector", "sphere-cluster", "--detector", "aabb-tree"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("all of them measured"), std::string::npos) << outcome.out;
+  std::map<Fields, int> rows;
+  for (const Fields& cell : fields_in(folder_.file("out/suite.csv"), {"section", "caches", "status"}))
+    ++rows[cell];
+  // One of ours and the best: five cells of hands in three states of the caches, and one of the stress, warm.
+  const std::map<Fields, int> expected{{{"hand", "warm", "ok"}, 10},
+                                       {{"hand", "l2", "ok"}, 10},
+                                       {{"hand", "cold", "ok"}, 10},
+                                       {{"stress", "warm", "ok"}, 2}};
+  EXPECT_EQ(rows, expected);
+  for (const Fields& row :
+       fields_in(folder_.file("out/results.csv"), {"trajectory", "cold_samples", "cold_l2_samples"})) {
+    if (row[1].empty()) continue;
+    EXPECT_EQ(row[1], "3") << row[0];
+    EXPECT_EQ(row[2], "30") << row[0];
+  }
+  EXPECT_EQ(run_touchmark({"validate", folder_.file("out")}).status, 0);
 }
 
 TEST_F(Suite, WhatDoesNotFitIntoItsMinutesIsNotMeasuredAndSaidSo) {

@@ -57,7 +57,9 @@ void expect_walks_alike(const SphereCluster& detector, const test::NamedMesh& na
         const Sweep sweep{at, at + heading, 0.5 * ball.radius};
         const auto hit = detector.first_hit(sweep, session), expected = every.first_hit(sweep, plain);
         ASSERT_EQ(hit.has_value(), expected.has_value()) << named.name << ", tick " << tick;
-        if (hit) ASSERT_EQ(hit->fraction, expected->fraction) << named.name << ", tick " << tick;
+        if (hit) {
+          ASSERT_EQ(hit->fraction, expected->fraction) << named.name << ", tick " << tick;
+        }
       }
       if (tick % 17 == 9) detector.prepare(session);
     }
