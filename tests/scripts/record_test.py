@@ -53,9 +53,13 @@ if [ "$1" = update ]; then
   exit "${UPDATE_STATUS-0}"
 fi
 if [ "$1" = bench ]; then
-  echo "${*:1:6} ${*:9}" >>"$TEST_LOG"
-  mkdir -p "$8"
-  printf '%s\n' bunny,slide,ok,grid-group "bunny,jump,not measured," >"$8/suite.csv"
+  words=("$@")
+  for ((i = 0; i < $#; ++i)); do
+    [ "${words[i]}" != --out ] || { out=${words[i + 1]}; unset 'words[i]' 'words[i + 1]'; break; }
+  done
+  echo "${words[*]}" >>"$TEST_LOG"
+  mkdir -p "$out"
+  printf '%s\n' bunny,slide,ok,grid-group "bunny,jump,not measured," >"$out/suite.csv"
   exit "${SUITE_STATUS-0}"
 fi
 echo "$1" >>"$TEST_LOG"
@@ -138,13 +142,17 @@ class Record(unittest.TestCase):
         log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
         self.assertEqual(log[1:], ["scale --detector embree", "validate"])
 
-    def test_adds_the_suite_for_as_many_minutes_as_asked(self):
-        done = self.record("--suite", "30", "--only", "embree")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        [recording] = self.recordings()
-        self.assertEqual((recording / "suite" / "suite.csv").read_text(encoding="utf-8"), "bunny,slide,ok,grid-group\n")
-        log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
-        self.assertEqual(log[1:], ["bench --suite --cells all --minutes 30 --detector embree", "validate"])
+    def test_adds_the_suite_as_planned_or_for_as_many_minutes_as_asked(self):
+        for minutes, words in (([], ""), (["30"], " --cells all --minutes 30")):
+            with self.subTest(minutes):
+                done = self.record("--suite", *minutes, "--only", "embree")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                [recording] = self.recordings()
+                self.assertEqual((recording / "suite" / "suite.csv").read_text(encoding="utf-8"), "bunny,slide,ok,grid-group\n")
+                log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
+                self.assertEqual(log[1:], [f"bench --suite{words} --detector embree", "validate"])
+                shutil.rmtree(recording)
+                (self.directory / "log").unlink()
 
     def test_records_other_comparisons_beside_the_default_one(self):
         done = self.record("--beside", "touches", "unlimited", "update")
