@@ -61,8 +61,8 @@ std::size_t bytes_to_walk_over(std::size_t generators) {
 
 LoadGenerators::LoadGenerators(Load load, const std::vector<int>& cores, std::size_t bytes) {
   if (load == Load::none) return;
-  if (load == Load::memory)
-    buffers_.assign(cores.size(), std::vector<std::uint64_t>(bytes / sizeof(std::uint64_t)));
+  if (load == Load::memory) buffers_.resize(cores.size());
+  for (std::vector<std::uint64_t>& buffer : buffers_) buffer.resize(bytes / sizeof(std::uint64_t));
   for (std::size_t i = 0; i < cores.size(); ++i) {
     threads_.emplace_back([this, load, core = cores[i], i](const std::stop_token& stop) {
       stay_on(core);
