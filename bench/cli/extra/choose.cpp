@@ -16,6 +16,7 @@
 
 #include "bench/cli/extra/choose_options.h"
 #include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/options.h"
 #include "bench/cli/run_frame.h"
 #include "bench/cli/selected_workload.h"
 #include "bench/cli/worker_options.h"
@@ -37,11 +38,12 @@ namespace choose = experiments::choose;
 
 namespace {
 
+/// Returns the user's motions; without any a hand along the surface, presses, free motion, and ways through
+/// thin parts.
 std::vector<std::string> motions_of(const ChooseOptions& options) {
   std::vector<std::string> motions = options.motions;
   motions.insert(motions.end(), options.selectors.trajectories.begin(), options.selectors.trajectories.end());
-  if (!motions.empty()) return motions;
-  return options.selectors.scene.empty() ? choose::usual_motions() : choose::usual_motions_over_bodies();
+  return or_else(motions, {"hand", "approach", "hover", "cross"});
 }
 
 measurement::Effort effort_for(bool quick) {

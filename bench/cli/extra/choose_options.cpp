@@ -72,8 +72,8 @@ void add_choose_options(CLI::App& command, ProgramContext& context, ChooseOption
       ->capture_default_str();
   command.get_option("--trajectory")
       ->description(
-          "as --motion, or a name (touchmark list); repeatable; default: slide, fast-slide (ten "
-          "times as fast; not over a scene of bodies), approach, hover and cross");
+          "as --motion, a name (touchmark list), or fast-slide, ten times as fast as slide and not over a "
+          "scene of bodies; repeatable; default: hand, approach, hover and cross");
   command.get_option("--detector")
       ->description("a candidate as NAME[:key=value,...]; repeatable; default: ours and the exact rivals");
   add_list(command, "--motion", options.motions, "CSV", "how your hand moves: a motion file; repeatable");

@@ -30,16 +30,6 @@ workload::Workload make_fast_slide(const std::string& mesh_name, const TriangleM
 
 }  // namespace
 
-const std::vector<std::string>& usual_motions() {
-  static const std::vector<std::string> motions{"slide", fast_slide, "approach", "hover", "cross"};
-  return motions;
-}
-
-const std::vector<std::string>& usual_motions_over_bodies() {
-  static const std::vector<std::string> motions{"slide", "approach", "hover", "cross"};
-  return motions;
-}
-
 workload::Workload workload_by_time(scenes::GeneratedScene scene, const workload::Selection& selection,
                                     const std::vector<std::string>& motions, double rate_hz) {
   if (std::ranges::find(motions, fast_slide) != motions.end())

@@ -11,15 +11,8 @@
 
 namespace touchmark::bench::experiments::choose {
 
-/// The generated motions where the user has none: along the surface, the same ten times as fast
-/// ("fast-slide"), pressing, free, and through thin parts.
-const std::vector<std::string>& usual_motions();
-
-/// Returns those over a scene of bodies, whose poses are by time: without the faster slide.
-const std::vector<std::string>& usual_motions_over_bodies();
-
-/// All motions by time, a position a tick of the rate; names of trajectories, of files, or fast-slide. Throws
-/// std::invalid_argument.
+/// All motions by time, a position a tick of the rate; names of trajectories, of files, or fast-slide, which
+/// is slide ten times as fast. Throws std::invalid_argument.
 workload::Workload workload_by_time(const std::string& mesh_name, const TriangleMesh& mesh,
                                     const workload::Selection& selection,
                                     const std::vector<std::string>& motions, double rate_hz);

@@ -303,6 +303,10 @@ TEST_F(SceneCommand, ChoosesForBodiesThatMoveAndPrintsAScene) {
     EXPECT_NE(outcome.out.find(code), std::string::npos) << code << outcome.out;
   const Outcome valid = run_touchmark({"validate", out});
   EXPECT_EQ(valid.status, 0) << valid.out << valid.err;
+  const Outcome by_itself =
+      run_touchmark({"choose", "--scene", one, "--quick", "--steps", "50", "--detector", "sphere-cluster"});
+  EXPECT_NE(by_itself.out.find("motions: hand, approach, hover, cross\n"), std::string::npos)
+      << by_itself.out << by_itself.err;
   expect_bad_input({"choose", "--scene", one, "--trajectory", "fast-slide"}, {"fast-slide", "scene"});
   expect_bad_input({"choose", "--scene", one, "--trajectory", "slide", "--rate", "500"}, {"500", "slide"});
   expect_bad_input({"choose", "--poses", poses}, {"--poses", "--scene"});

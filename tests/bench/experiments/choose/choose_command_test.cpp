@@ -81,6 +81,13 @@ TEST_F(Choose, MeasuresOursAndTheExactRivalsOnSeveralMotions) {
   expect_valid();
 }
 
+TEST_F(Choose, BeginsWithAHandWhereNoMotionIsGiven) {
+  const Outcome outcome = choose({"--detector", "aabb-tree"});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("motions: hand, approach, hover, cross\n"), std::string::npos) << outcome.out;
+  EXPECT_EQ(column("motions"), (Fields{"4"}));
+}
+
 TEST_F(Choose, TakesAMotionByItsTimes) {
   std::string csv = "time_s,x,y,z\n";
   for (int i = 0; i <= 20; ++i)
