@@ -89,8 +89,7 @@ std::string checked_trajectory(const ServoOptions& options) {
   if (names.size() > 1)
     throw std::invalid_argument(
         fmt::format("--trajectory \"{}\" is one too many: servo takes one", names[1]));
-  if (!names.empty()) return names.front();
-  return options.proxy ? "approach" : "slide";  // a goal that slides is at the surface, and pushes nothing
+  return names.empty() ? "hand" : names.front();
 }
 
 void add_servo_options(CLI::App& command, ProgramContext& context, ServoOptions& options) {
@@ -99,6 +98,9 @@ void add_servo_options(CLI::App& command, ProgramContext& context, ServoOptions&
   add_selectors(command, context, options.selectors);
   add_scene_selectors(command, options.selectors);
   command.get_option("--detector")->capture_default_str();
+  command.get_option("--trajectory")
+      ->description(
+          "a name (touchmark list), as hand:tap, or a motion file, CSV with columns x,y,z; default: hand");
   command.get_option("--rate")
       ->description("of the loop; motion goes by time, so motion files with times are resampled to it")
       ->capture_default_str();

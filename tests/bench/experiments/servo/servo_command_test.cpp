@@ -67,6 +67,17 @@ TEST_F(Servo, ASecondEndsWithItsVerdictAsLastLineAndStatus) {
   expect_valid();
 }
 
+TEST_F(Servo, FollowsAHandWhereNoMotionIsNamed) {
+  for (const Fields& asked :
+       {Fields{"--mesh", "icosphere:2"}, {"--mesh", "icosphere:2", "--proxy"}, {"--scene", "heap:3"}}) {
+    Fields command{"servo", "--seconds", "0.1", "--out", folder_.file("out")};
+    command.insert(command.end(), asked.begin(), asked.end());
+    run_touchmark(command);
+    EXPECT_EQ(read("servo.csv").at(0).at("trajectory"), "hand");
+    expect_valid();
+  }
+}
+
 TEST_F(Servo, TheCommandOfAWorstTickAnswersItsStepAgain) {
   for (const char* rate : {"1000", "2500"}) {
     servo({"--seconds", "0.2", "--rate", rate});
@@ -104,8 +115,8 @@ TEST_F(Servo, AnOverrunIsEndedAndIsTheMachinesWhereNothingWasAsked) {
 }
 
 TEST_F(Servo, StepsAProxyAndJudgesEveryStep) {
-  const Outcome outcome = servo({"--proxy", "--method", "certified", "--friction", "0.3,0.2", "--stiffness",
-                                 "500", "--seconds", "0.5"});
+  const Outcome outcome = servo({"--proxy", "--trajectory", "approach", "--method", "certified", "--friction",
+                                 "0.3,0.2", "--stiffness", "500", "--seconds", "0.5"});
   EXPECT_NE(outcome.status, 2) << outcome.err;
   const auto rows = read("servo.csv");
   ASSERT_EQ(rows.size(), 1u);
@@ -161,7 +172,7 @@ TEST_F(Servo, RefusesWhatItCannotDo) {
   expect_bad_input({"servo", "--proxy", "--reach", "1"}, {"--reach", "--proxy"});
   expect_bad_input({"servo", "--proxy", "--scene", "heap:3"}, {"--scene", "--proxy", "excludes"});
   expect_bad_input({"servo", "--scene", "heap:3", "--mesh", "cube"}, {"--scene", "--mesh"});
-  expect_bad_input({"servo", "--scene", "heap:3", "--rate", "500"}, {"--rate", "500", "slide", "1000"});
+  expect_bad_input({"servo", "--scene", "heap:3", "--rate", "500"}, {"--rate", "500", "hand", "1000"});
   expect_bad_input({"servo", "--stiffness", "10"}, {"--stiffness", "--proxy"});
   expect_bad_input({"servo", "--proxy", "--method", "penalty"}, {"penalty", "certified"});
   expect_bad_input({"servo", "--proxy", "--method", "certifed"}, {"certifed", "certified"});
