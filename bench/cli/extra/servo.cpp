@@ -157,6 +157,8 @@ void ServoCommand::save(const servo::ServoRun& run) const {
 }
 
 int ServoCommand::run() {
+  if (options_.load.empty() && settings_.load == servo::Load::none)
+    fmt::print(stderr, "touchmark: load none: there is no other core that this program may use\n");
   servo::ServoRun run(context_.roster, workload_, frame_.description.query, selection_.contestants, settings_,
                       workers_);
   name_commands(run);
@@ -195,8 +197,7 @@ void add_servo(CLI::App& program, ProgramContext& context) {
       "used where they are allowed. The last line says \"holds\", \"does not hold\" or \"inconclusive\", and "
       "the\n"
       "exit status is 0, 1 or 4.\n"
-      "Example: touchmark servo --mesh bunny --detector sphere-cluster --seconds 60 --load memory --out "
-      "out/servo\n");
+      "Example: touchmark servo --mesh bunny --detector sphere-cluster --seconds 60 --out out/servo\n");
   command->final_callback([options, &context] { context.status = ServoCommand(context, *options).run(); });
 }
 

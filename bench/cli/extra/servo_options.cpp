@@ -30,6 +30,18 @@ namespace {
 constexpr double max_rate_hz = 100'000;
 constexpr double max_s = 1e6;
 
+/// Returns the load of this name; without a name that on memory, where another core can carry it.
+servo::Load checked_load(const std::string& text, int core) {
+  const bool is_alone = servo::other_cores(core).empty();
+  if (text.empty()) return is_alone ? servo::Load::none : servo::Load::memory;
+  const std::optional<servo::Load> load = servo::load_named(text);
+  if (!load) throw support::bad_value("--load", text, "one of none, memory, cpu");
+  if (*load != servo::Load::none && is_alone)
+    throw std::invalid_argument(
+        fmt::format("--load {}: there is no other core that this program may use", text));
+  return *load;
+}
+
 /// Workers have our proxy; those of the suite, which notes what it compares, are not made for a loop.
 void check_method(const std::string& method) {
   if (method.empty() || proxies::method_named(method).text() == servo::own_proxy) return;
@@ -70,12 +82,7 @@ servo::ServoSettings checked_settings(const ServoOptions& options, int core) {
   const double seconds = support::checked_number("--seconds", options.seconds, support::Zero::refused, max_s);
   settings.ticks = static_cast<std::uint64_t>(std::max(std::round(seconds * settings.rate_hz), 1.0));
   settings.work_us = support::checked_number("--work", options.work_us, support::Zero::allowed, 1e6);
-  const std::optional<servo::Load> load = servo::load_named(options.load);
-  if (!load) throw support::bad_value("--load", options.load, "one of none, memory, cpu");
-  settings.load = *load;
-  if (*load != servo::Load::none && servo::other_cores(core).empty())
-    throw std::invalid_argument(
-        fmt::format("--load {}: there is no other core that this program may use", options.load));
+  settings.load = checked_load(options.load, core);
   if (options.proxy) {
     check_method(options.method);
     settings.proxy = checked_coupling(options.coupling);
@@ -109,7 +116,8 @@ void add_servo_options(CLI::App& command, ProgramContext& context, ServoOptions&
   add_value(command, "--seconds", options.seconds, "S",
             "of each detector's ticks; its idle loop takes as long again");
   add_value(command, "--load", options.load, "LOAD",
-            "what the other cores do meanwhile: none, memory or cpu");
+            "what the other cores do meanwhile: none, memory or cpu; default: memory, or none where there is "
+            "no other core");
   add_value(command, "--work", options.work_us, "US", "other work a tick on the same core, after the answer");
   add_proxy_options(command, options);
   add_value(command, "--cpu", options.cpu, "N", "the core of the loop; default: the last");

@@ -15,7 +15,7 @@ struct ProgramContext;
 
 struct ServoOptions {
   contestants::Selectors selectors;
-  std::string seconds = "10", load = "none", work_us = "0", cpu, out;
+  std::string seconds = "10", load, work_us = "0", cpu, out;
   bool proxy = false;
   std::string method;
   CouplingSelectors coupling;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include "bench/support/files/csv_reader.h"
 #include "tests/bench/cli/run_touchmark.h"
@@ -76,6 +77,44 @@ TEST_F(Servo, FollowsAHandWhereNoMotionIsNamed) {
     EXPECT_EQ(read("servo.csv").at(0).at("trajectory"), "hand");
     expect_valid();
   }
+}
+
+/// Keeps this process, and the programs that it starts, on one of its cores.
+class OneCore {
+ public:
+  OneCore() {
+    EXPECT_EQ(sched_getaffinity(0, sizeof before_, &before_), 0);
+    unsigned core = 0;
+    while (!CPU_ISSET(core, &before_)) ++core;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(core, &one);
+    EXPECT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  }
+  ~OneCore() { sched_setaffinity(0, sizeof before_, &before_); }
+  bool was_alone() const { return CPU_COUNT(&before_) == 1; }
+
+ private:
+  cpu_set_t before_;
+};
+
+TEST_F(Servo, OtherCoresLoadTheMemoryWhereNoLoadIsNamed) {
+  if (OneCore().was_alone()) GTEST_SKIP() << "there is no other core";
+  EXPECT_EQ(servo({"--seconds", "0.1"}).err, "");
+  EXPECT_EQ(read("servo.csv").at(0).at("load"), "memory");
+  EXPECT_NE(content_of(folder_.file("out/run.json")).find("\"load\": \"memory\""), std::string::npos);
+  expect_valid();
+}
+
+TEST_F(Servo, WithOneCoreNothingIsLoadedAndALineSaysSo) {
+  const OneCore one_core;
+  EXPECT_EQ(servo({"--seconds", "0.1"}).err,
+            "touchmark: load none: there is no other core that this program may use\n");
+  EXPECT_EQ(read("servo.csv").at(0).at("load"), "none");
+  expect_valid();
+  EXPECT_EQ(servo({"--seconds", "0.1", "--load", "none"}).err, "");
+  EXPECT_EQ(read("servo.csv").at(0).at("load"), "none");
+  expect_bad_input({"servo", "--load", "memory"}, {"--load memory", "no other core"});
 }
 
 TEST_F(Servo, TheCommandOfAWorstTickAnswersItsStepAgain) {
