@@ -18,7 +18,7 @@ struct DeadlineMisses {
   std::size_t max_run = 0;  ///< how many neighbouring steps missed it one after the other
 };
 
-/// Where a quantile of all that might have been sampled lies, with 95 % confidence: two of the samples.
+/// Two of the samples, between which the true quantile lies with 95 % confidence.
 struct QuantileBounds {
   double low = 0, high = 0;
 };

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include "core/bvh/followed_point.h"
@@ -16,19 +15,15 @@ namespace touchmark::bvh {
 /// Forgetting it changes the cost of the next answer, never the answer.
 struct alignas(64) KeptNearest : LastDistance {
   /// So many more questions are for the mesh's box, which answered last.
-  std::uint32_t for_box = 0;
+  std::uint16_t for_box = 0;
+  /// A triangle of the structure is kept. This is in the first line, which every query reads.
+  bool is_kept = false;
   TriangleId id = 0;  ///< the kept triangle's
   FollowedPoint around;
-  PreparedTriangle triangle;  ///< a copy of that in around.nearest, unless none is kept
+  PreparedTriangle triangle;  ///< the kept one: a copy of that in around.nearest
   /// By which the point moved to `center`; infinite after `touches`, which lists nothing.
   Vec3 move = Vec3::Zero();
 
-  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
-
-  /// True if a triangle of this structure is kept.
-  bool keeps(const Epoch& structure) const noexcept {
-    return around.epoch == structure && around.nearest != nowhere;
-  }
   /// Clears the kept triangle's bit in bits of those listed.
   unsigned others(unsigned listed) const noexcept { return listed & ~(1U << around.nearest); }
   /// The contact of a point with the kept triangle, which is `offset` away, if that is within the reach.
@@ -37,8 +32,6 @@ struct alignas(64) KeptNearest : LastDistance {
     if (distance > reach) return std::nullopt;
     return Contact{point - offset, Vec3(offset / distance), distance, id, Side::unasked};
   }
-  /// What is listed is no longer asked, but tells where the point came from.
-  void keep_none() noexcept { around.nearest = nowhere; }
 };
 static_assert(sizeof(KeptNearest) == 576);
 

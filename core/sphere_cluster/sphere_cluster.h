@@ -143,7 +143,7 @@ class SphereCluster {
   }
   /// Goes on with the box if that has answered; returns whether it has.
   static bool goes_on_with_box(bool is_beyond, spheres::PointMemory& memory) noexcept {
-    memory.for_box = is_beyond ? memory.for_box - 1 : 0;
+    is_beyond ? --memory.for_box : memory.for_box = 0;
     return is_beyond;
   }
 

@@ -26,7 +26,7 @@ struct SuiteCell {
   std::string trajectory;  ///< as --trajectory takes it: "slide:speed=0.1%"
   workload::Query query = workload::Query::nearest;
   std::string reach;    ///< as --reach takes it; "inf" is of `nearest` only
-  bool stress = false;  ///< of a motion that no hand makes: counts in no score
+  bool stress = false;  ///< the motion is faster than hands, and the cell is in no score
   bool cold = false;    ///< also with emptied caches
 
   /// True if the motion stays within the probe's radius of the surface.

@@ -9,9 +9,9 @@ void remember_box(const WideBvh& bvh, const Vec3& center, double reach, double c
                   PointMemory& memory) noexcept {
   memory.claim(bvh.epoch());
   // A clearance that lasts twice as long as these questions serves better than the box.
-  constexpr std::uint32_t questions = 64;
+  constexpr std::uint16_t questions = 64;
   const double half = 0.5 * (clearance - reach);
-  memory.for_box = (center - memory.center).squaredNorm() < half * half ? 0 : questions;
+  memory.for_box = (center - memory.center).squaredNorm() < half * half ? std::uint16_t{0} : questions;
   memory.remember(center, clearance * (1 - 0x1p-40), std::numeric_limits<double>::infinity());
 }
 

@@ -35,6 +35,7 @@ struct PointMemory : bvh::KeptNearest {
     neighborhood.start_anew();
     touched_slot = std::numeric_limits<std::uint32_t>::max();
     for_box = 0;
+    is_kept = false;
   }
   /// Forgets what is about another structure.
   void claim(const Epoch& now) noexcept {

@@ -68,18 +68,24 @@ template <class Ends>
 /// Keeps a copy of the nearest of those listed.
 void keep_nearest(const WideBvh& bvh, PointMemory& memory) noexcept {
   const bvh::FollowedPoint& around = memory.around;
+  memory.is_kept = true;
   memory.triangle = bvh.parts().triangles[around.list.slot[around.nearest]];
   memory.id = bvh.ids()[memory.triangle.index];
 }
 
-/// Lists the triangles around the point for the next ticks, if it moves so slowly that a list is going to
-/// answer many, and the last one did. `farthest` bounds the distance. Returns false where there is no list.
-[[gnu::noinline]] bool list_for_next(const WideBvh& bvh, const Vec3& center, const Vec3& move,
-                                     double farthest, PointMemory& memory, Work& work) noexcept {
-  constexpr double max_move = 0.03;  // in mean radii of the leaves
+/// True of a point that moves so slowly that a list is going to answer many ticks.
+bool is_slow(const WideBvh& bvh, const Vec3& move) noexcept {
+  const double max_move = 0.015 * bvh.mean_leaf_radius();
+  return move.squaredNorm() <= max_move * max_move;
+}
+
+/// Lists the triangles around a slow point for the next ticks, if the last list answered many. `farthest`
+/// bounds the distance. Returns false where there is no list.
+[[gnu::noinline]] bool list_for_next(const WideBvh& bvh, const Vec3& center, double farthest,
+                                     PointMemory& memory, Work& work) noexcept {
   constexpr std::uint32_t answers_that_pay = 8;
   bvh::FollowedPoint& around = memory.around;
-  if (!(move.norm() <= max_move * bvh.mean_leaf_radius()) || around.backoff.waits()) return false;
+  if (around.backoff.waits()) return false;
   const bool paid = around.epoch != bvh.epoch() || around.answered >= answers_that_pay;
   around.answered = answers_that_pay;
   Work spent;
@@ -94,14 +100,15 @@ void keep_nearest(const WideBvh& bvh, PointMemory& memory) noexcept {
   return true;
 }
 
-/// Lists what is around the triangle that a search has found, and keeps it.
-void keep_found(const WideBvh& bvh, double farthest, PointMemory& memory, Work& work) noexcept {
+/// Lists what is around the triangle that a search for a slow point has found, and keeps it.
+[[gnu::noinline]] void keep_found(const WideBvh& bvh, double farthest, PointMemory& memory,
+                                  Work& work) noexcept {
   bvh::FollowedPoint& around = memory.around;
-  if (!list_for_next(bvh, memory.center, memory.move, farthest, memory, work)) return;
+  if (!list_for_next(bvh, memory.center, farthest, memory, work)) return;
   const std::uint32_t* const first = around.list.slot;
   const std::uint32_t* const place = std::find(first, first + around.list.count, memory.slot);
   around.nearest = static_cast<std::uint32_t>(place - first);
-  around.nearest < around.list.count ? keep_nearest(bvh, memory) : memory.keep_none();
+  if (around.nearest < around.list.count) keep_nearest(bvh, memory);
 }
 
 /// A search that ends with a contact.
@@ -121,7 +128,7 @@ struct ContactEnds {
   }
   [[gnu::always_inline]] std::optional<Contact> found(const NearestVisitor& visitor, double error,
                                                       double distance) const noexcept {
-    keep_found(surface.bvh, distance + error, memory, work);
+    if (is_slow(surface.bvh, memory.move)) keep_found(surface.bvh, distance + error, memory, work);
     return contact_found(surface, visitor, reach, error, distance, work);
   }
 };
@@ -157,10 +164,11 @@ struct CloseEnds {
 
 /// Searches in the order of docs/algorithms/sphere-cluster.md, from the step of the samples on.
 template <class Exhausted>
-[[gnu::noinline]] std::optional<Contact> nearest_searched(const Surface& surface, const Vec3& center,
-                                                          double reach, PointMemory& memory, Work& work,
-                                                          std::uint64_t budget,
-                                                          const Exhausted& exhausted) noexcept {
+[[gnu::always_inline]] inline std::optional<Contact> nearest_searched(const Surface& surface,
+                                                                      const Vec3& center, double reach,
+                                                                      PointMemory& memory, Work& work,
+                                                                      std::uint64_t budget,
+                                                                      const Exhausted& exhausted) noexcept {
   return search_nearest(surface.bvh, center, reach, memory, work, budget,
                         ContactEnds<Exhausted>{surface, center, reach, memory, work, exhausted});
 }
@@ -174,7 +182,7 @@ bool search_around(const WideBvh& bvh, double reach, double error, NearestVisito
   if (!visitor.candidates.found()) return false;
   const double farthest = std::sqrt(visitor.candidates.best().squared_distance) + error;
   const Vec3& center = visitor.center;
-  return list_for_next(bvh, center, center - memory.center, farthest, memory, visitor.work) &&
+  return is_slow(bvh, center - memory.center) && list_for_next(bvh, center, farthest, memory, visitor.work) &&
          search_listed(bvh, reach, error, around, visitor);
 }
 
@@ -193,7 +201,7 @@ template <class Exhausted>
   const bool is_told = bvh.can_search(point) && search_around(bvh, reach, error, visitor, memory);
   work += visitor.work;
   if (!is_told) {
-    memory.keep_none();
+    memory.is_kept = false;
     return nearest_searched(surface, center, reach, memory, work, budget, exhausted);
   }
   ++memory.around.answered;
@@ -214,9 +222,9 @@ template <class Exhausted>
                                                                 std::uint64_t budget,
                                                                 const Exhausted& exhausted) noexcept {
   const WideBvh& bvh = surface.bvh;
-  prefetch_lines(&memory, sizeof(bvh::KeptNearest));
-  if (!memory.keeps(bvh.epoch()))
+  if (!memory.is_kept || memory.epoch != bvh.epoch())
     return nearest_searched(surface, center, reach, memory, work, budget, exhausted);
+  prefetch_lines(&memory, sizeof(bvh::KeptNearest));
   const auto look_around = [&] {
     return nearest_around(surface, center, reach, memory, work, budget, exhausted);
   };
