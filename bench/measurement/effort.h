@@ -41,7 +41,7 @@ inline constexpr std::size_t usual_line_samples = 200, quick_line_samples = 50;
 /// What queries with emptied caches add, however many contestants and trajectories there are.
 inline constexpr std::size_t usual_cold_passes = 2, quick_cold_passes = 1;
 inline constexpr std::size_t quick_cold_samples = 100, quick_cold_l2_samples = 1000;
-inline constexpr double usual_cold_budget_ns = 30e9, quick_cold_budget_ns = 8e9;
+inline constexpr double usual_cold_budget_ns = 16e9, quick_cold_budget_ns = 8e9;
 
 inline constexpr Effort quick_effort{10, 3, 10e6, 4e6};
 

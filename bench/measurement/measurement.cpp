@@ -215,10 +215,12 @@ ResultRow Measurement::row() {
   }
   row_.log = log_;
   if (!prepared_ns_.empty()) row_.prepare = summarize_latency(median_per_step(prepared_ns_), ranges_);
-  if (!cold_ns_.empty()) {
+  if (!cold_l2_ns_.empty()) {
     row_.cold_l2 = summarize_cold(cold_l2_ns_);
-    row_.cold = summarize_cold(cold_ns_);
     row_.cold_floor_l2_ns = support::median(floor_l2_ns_);
+  }
+  if (!cold_ns_.empty()) {
+    row_.cold = summarize_cold(cold_ns_);
     row_.cold_floor_ns = support::median(floor_ns_);
   }
   row_.clock_cost_ns = process_.opened().clock_cost_ns;

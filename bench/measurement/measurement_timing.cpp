@@ -55,6 +55,7 @@ void Measurement::latency_pass() {
 
 void Measurement::take_cold_samples(std::size_t bytes, std::size_t max_samples, double budget_ns,
                                     std::vector<double>& ns, std::vector<double>& floor_ns) {
+  if (max_samples == 0) return;
   request::Cold request{
       cold_task(), bytes,    cold_floor_samples, ns.size(), std::min(effort_.min_cold_samples, max_samples),
       max_samples, budget_ns};

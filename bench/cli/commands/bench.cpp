@@ -258,7 +258,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       "also queries with the second-level cache, or all caches, emptied between them; default: yes");
   add_value(*command, "--cold-samples", options->cold_samples, "N",
             "take all of N queries with all caches emptied a row, and 10 N with the second-level cache "
-            "emptied; default: up to 400, as many as fit into 30 s")
+            "emptied; default: up to 400, as many as fit into 16 s")
       ->excludes(cold);
   command->add_flag("--cache-lines", options->cache_lines,
                     "also how many cache lines a query touches, as valgrind counts them");

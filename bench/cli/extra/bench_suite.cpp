@@ -196,7 +196,8 @@ void SuiteRun::run_mesh(const suite::SuiteMesh& planned) {
 void SuiteRun::run_cell(measurement::Comparison& comparison, const suite::MeshWorkload& made,
                         std::size_t which, suite::MeasuredCell& measured) {
   measurement::Effort effort = extent_.effort;
-  if (!measured.cell.cold) effort.cold_passes = 0;
+  if (!measured.cell.l2) effort.cold_passes = 0;
+  if (!measured.cell.cold) effort.cold_samples = 0;
   comparison.set_effort(effort);
   measured.rows = comparison.run(made.trace_of[which], measured.cell.query);
   measured.conclusive = comparison.steadiness().empty() || comparison.steadiness().back().conclusive();

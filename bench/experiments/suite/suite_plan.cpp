@@ -121,7 +121,7 @@ std::vector<std::string> suite_meshes(std::uint64_t triangles) {
 }
 
 SuitePlan make_plan(const std::vector<std::string>& meshes, std::size_t cells_each, std::uint64_t seed,
-                    bool cold) {
+                    bool emptied) {
   support::Random random(seed);
   SuitePlan plan;
   std::vector<std::array<std::vector<SuiteCell>, 2>> left;  // cells of hands, and of the stress
@@ -139,7 +139,9 @@ SuitePlan make_plan(const std::vector<std::string>& meshes, std::size_t cells_ea
       const bool stress =
           left[i][0].empty() || (round % cells_a_stress == cells_a_stress - 1 && !left[i][1].empty());
       plan.meshes[i].cells.push_back(take_rarest(left[i][stress ? 1 : 0], of_mesh[i], of_all));
-      plan.meshes[i].cells.back().cold = cold && !stress;
+      SuiteCell& cell = plan.meshes[i].cells.back();
+      cell.l2 = emptied && !stress;
+      cell.cold = cell.l2 && round == 0;
     }
   }
   return plan;

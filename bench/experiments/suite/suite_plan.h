@@ -27,7 +27,8 @@ struct SuiteCell {
   workload::Query query = workload::Query::nearest;
   std::string reach;    ///< as --reach takes it; "inf" is of `nearest` only
   bool stress = false;  ///< the motion is faster than hands, and the cell is in no score
-  bool cold = false;    ///< also with emptied caches
+  bool l2 = false;      ///< also with the second-level cache emptied
+  bool cold = false;    ///< also with all caches emptied, which takes longest
 
   /// True if the motion stays within the probe's radius of the surface.
   bool is_in_contact() const { return trajectory == "hand" || trajectory.starts_with("slide"); }
@@ -58,9 +59,10 @@ std::vector<std::string> suite_meshes(std::uint64_t triangles);
 
 /// Chooses `cells_each` cells, at least 1, for every mesh (all, where there are not so many), such that over
 /// the plan the motions, and the queries with their reaches, come up equally often in each section. Every
-/// sixth is of the stress. A plan of fewer cells is the beginning of one of more. Where `cold`, all but the
-/// stress are also measured so.
+/// sixth is of the stress. A plan of fewer cells is the beginning of one of more. Where `emptied`, all but
+/// the stress are also measured with the second-level cache emptied, and the first of each mesh with all
+/// caches.
 SuitePlan make_plan(const std::vector<std::string>& meshes, std::size_t cells_each, std::uint64_t seed,
-                    bool cold = true);
+                    bool emptied = true);
 
 }  // namespace touchmark::bench::experiments::suite

@@ -64,7 +64,7 @@ TimesOf times_of(Caches caches) {
 double floor_of(const std::vector<ResultRow>& rows, double ResultRow::*floor) {
   std::vector<double> all;
   for (const ResultRow& row : rows)
-    if (floor != nullptr && row.cold) all.push_back(row.*floor);
+    if (floor != nullptr && row.throughput) all.push_back(row.*floor);
   return all.empty() ? 0 : support::median(all);
 }
 
@@ -172,7 +172,7 @@ std::vector<SuiteRow> score(const MeasuredCell& cell, const std::vector<std::str
                             const IsOurs& is_ours) {
   std::vector<SuiteRow> rows;
   for (const Caches caches : {Caches::warm, Caches::l2, Caches::cold}) {
-    if (caches != Caches::warm && !cell.cell.cold) continue;
+    if ((caches == Caches::l2 && !cell.cell.l2) || (caches == Caches::cold && !cell.cell.cold)) continue;
     const TimeOf time = times_of(caches).mean;
     for (const std::string& contestant : ours)
       rows.push_back(row_for(cell, caches, contestant, row_of(cell.rows, contestant, time), is_ours));

@@ -34,7 +34,7 @@ TEST(SuitePlan, HasNineMotionsOfHandsAndSevenOfStressAndNothingThatMakesNoSense)
   for (const SuiteCell& cell : cells) {
     EXPECT_TRUE(trajectories::is_generated(cell.trajectory)) << cell.trajectory;
     (cell.stress ? of_stress : of_hands).insert(cell.trajectory);
-    EXPECT_FALSE(cell.cold);
+    EXPECT_FALSE(cell.l2 || cell.cold);
     if (cell.query != Query::nearest) {
       EXPECT_NE(cell.reach, "inf");
     }
@@ -91,7 +91,7 @@ TEST(SuitePlan, AsksEachMotionAndEachQueryWithinEachReachAboutEquallyOften) {
               10);
 }
 
-TEST(SuitePlan, FewerCellsAreTheBeginningOfMoreAndThoseOfHandsAreAlsoCold) {
+TEST(SuitePlan, FewerCellsAreTheBeginningOfMoreAndCachesAreEmptiedForHands) {
   const std::vector<std::string> meshes{"cube", "wedge", "caps"};
   const SuitePlan few = make_plan(meshes, 7, 7), more = make_plan(meshes, 1000, 7),
                   other = make_plan(meshes, 7, 8);
@@ -107,7 +107,8 @@ TEST(SuitePlan, FewerCellsAreTheBeginningOfMoreAndThoseOfHandsAreAlsoCold) {
       EXPECT_EQ(few.meshes[i].cells[k].trajectory, more.meshes[i].cells[k].trajectory);
       EXPECT_EQ(few.meshes[i].cells[k].reach, more.meshes[i].cells[k].reach);
       EXPECT_EQ(few.meshes[i].cells[k].stress, k == 5);
-      EXPECT_EQ(few.meshes[i].cells[k].cold, k != 5);
+      EXPECT_EQ(few.meshes[i].cells[k].l2, k != 5);
+      EXPECT_EQ(few.meshes[i].cells[k].cold, k == 0);
       differs = differs || few.meshes[i].cells[k].trajectory != other.meshes[i].cells[k].trajectory;
     }
   }
@@ -196,7 +197,7 @@ MeasuredCell cold_cell() {
   other.cold_floor_ns = 1100;
   one.cold_floor_l2_ns = other.cold_floor_l2_ns = 400;
   MeasuredCell cell = measured({one, other});
-  cell.cell.cold = true;
+  cell.cell.l2 = cell.cell.cold = true;
   return cell;
 }
 
