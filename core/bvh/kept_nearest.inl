@@ -21,7 +21,6 @@ static unsigned listed_within(const FollowedPoint& around, const MoveInFrame& mo
 [[gnu::noinline]] static bool are_farther(const PreparedTriangle* triangles, unsigned places, double distance,
                                           double error, const Vec3& center, double scale,
                                           FollowedPoint& around, Work& work) noexcept {
-  const MoveInFrame move(center - around.center, scale);
   while (places != 0) {
     const std::uint32_t i = pop_lowest(places);
     const PreparedTriangle& triangle = triangles[around.list.slot[i]];
@@ -29,7 +28,7 @@ static unsigned listed_within(const FollowedPoint& around, const MoveInFrame& mo
     ++work.triangles;
     const Offset offset = kernel(triangle, center);
     if (!(std::sqrt(offset.squared) > distance)) return false;
-    set_plane_there(around.list, i, triangle, center, offset, move, error, scale);
+    set_plane_across(around.list, i, triangle, around.center, offset, error, scale);
   }
   return true;
 }

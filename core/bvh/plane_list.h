@@ -7,9 +7,7 @@
 #include <limits>
 
 #include "core/bvh/node.h"
-#include "core/geometry/point_triangle.h"
 #include "core/probe.h"
-#include "core/search/plane_filter/listed_plane.h"
 
 namespace touchmark::bvh {
 
@@ -64,14 +62,5 @@ struct PlaneList {
     }
   }
 };
-
-/// Puts listed triangle i behind the plane across the offset that was found from it at a point that has moved
-/// so far from the list's, unless the offset is too short.
-template <class List>
-void set_plane_there(List& list, std::uint32_t i, const PreparedTriangle& triangle, const Vec3& point,
-                     const Offset& found, const MoveInFrame& move, double error, double scale) noexcept {
-  if (set_plane_across(list, i, triangle, point, found, error, scale))
-    list.bound[i] -= move.along(list.x[i], list.y[i], list.z[i]);
-}
 
 }  // namespace touchmark::bvh

@@ -12,6 +12,7 @@
 #include "core/bvh/followed_point.h"
 #include "core/bvh/search.h"
 #include "core/simd/prefetch.h"
+#include "core/search/plane_filter/listed_plane.h"
 #include "core/sphere_cluster/queries/bounds.h"
 #include "core/sphere_cluster/queries/nearest_visitor.h"
 
@@ -65,8 +66,8 @@ bool search_listed(const WideBvh& bvh, double reach, double error, FollowedPoint
       farthest = found;
       followed.nearest = i;
     } else if (found > farthest + 4 * error) {
-      bvh::set_plane_there(list, i, bvh.parts().triangles[list.slot[i]], visitor.center, offset, move, error,
-                           bvh.frame().scale());
+      set_plane_across(list, i, bvh.parts().triangles[list.slot[i]], followed.center, offset, error,
+                       bvh.frame().scale());
       return;
     }
     near &= within(farthest);

@@ -119,6 +119,30 @@ TEST(KeptNearest, SeesThatSomethingElseIsNearerAfterItMoved) {
 }
 
 /// The same surface, moved: what was kept of before is not believed.
+// A mesh of so few triangles is listed whole, and its list goes on however far the point leaps. A plane that was
+// found far from where the list was made once passed over a corner that the point then came to.
+TEST(KeptNearest, ComesBackToACornerAfterLeapsAsLongAsTheMesh) {
+  test::Random random(8);
+  for (const TriangleMesh& mesh :
+       {TriangleMesh({{0, 0, 0}, {1, 2, 3}}, {{0, 1, 1}, {0, 0, 1}}),
+        TriangleMesh({{0, 0, 0}, {1, 2, 3}, {2, 1, 0.3}, {0.7, 0.1, 2}}, {{0, 1, 2}, {1, 3, 2}, {3, 0, 2}})}) {
+    const auto detector = SphereCluster::build(mesh);
+    const auto every = BruteForce::build(mesh);
+    BruteForce::Session plain;
+    Session session;
+    const auto ask = [&](const Vec3& at, double reach) {
+      return same_bits(detector.nearest({at, 0}, reach, session), every.nearest({at, 0}, reach, plain));
+    };
+    for (int round = 0; round < 300; ++round) {
+      Vec3 at = mesh.vertices().front() + random.point(0.01);
+      for (int tick = 0; tick < 10; ++tick) ASSERT_TRUE(ask(at += random.point(1e-5), infinity)) << round;
+      for (const double reach : {0.0, 0.01, infinity}) ASSERT_TRUE(ask(random.point(4), reach)) << round;
+      for (const Vec3& vertex : mesh.vertices())
+        for (const double reach : {0.0, infinity}) ASSERT_TRUE(ask(vertex, reach)) << round;
+    }
+  }
+}
+
 TEST(KeptNearest, IsForgottenWhenTheMeshMoves) {
   const TriangleMesh before = test::bumpy_sphere(30, 0.02, 4);
   const TriangleMesh after = before.transformed(1, Vec3(0.01, 0, 0));
