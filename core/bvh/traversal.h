@@ -33,6 +33,7 @@
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/point_triangle_avx2.h"
+#include "core/search/plane_filter/listed_plane.h"
 #include "core/search/plane_filter/plane_filter.h"
 #include "core/search/tracing.h"
 #include "core/simd/dispatch.h"

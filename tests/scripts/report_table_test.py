@@ -64,6 +64,14 @@ class ReportTable(unittest.TestCase):
         self.assertIn("| `b:x=1` | 300 | 1,200 | 600 | yes |", self.table(rows, "--absolute").stdout)
         self.assertIn("| `a` | 0.33 |", self.table(rows, "--reference", "b:x=1").stdout)
 
+    def test_tells_times_with_emptied_caches_beside_the_warm_ones(self):
+        rows = [{**ROW, "detector": name, "trajectory": trajectory, "ns_undisturbed": warm, "cold_ns_p50": cold}
+                for name, warm, colds in (("a", 100, (1000, 500)), ("b", 300, (2000, 4000)))
+                for trajectory, cold in zip(("hand", "jump"), colds)]
+        lines = [cells(line) for line in self.table(rows).stdout.splitlines()]
+        self.assertEqual(lines[2:], [["`a`", "1 / 1", "1 / 1", "1 / 1", "yes"], ["`b`", "3 / 2", "3 / 8", "3 / 4", "yes"]])
+        self.assertIn("| `b` | 300 / 2,000 |", self.table(rows, "--absolute").stdout)
+
     def test_has_a_row_for_each_of_the_eight_fastest_detectors(self):
         rows = [{**ROW, "detector": name, "options": options, "ns_undisturbed": 100 + 10 * k}
                 for k, name in enumerate("ihgfedcba") for options in ("slow=1", "")]
