@@ -3,11 +3,11 @@
 function(touchmark_unite_folders target core)
   # Compiled by themselves: neighborhood and linear_scan since slides take fewer instructions then, the others since their
   # unnamed namespaces name things as another file's of the folder do.
-  set(apart exact/precise_closest_point field/plane_fitter geometry/path_gap grid_group/direct/direct_query
-    grid_group/direct/prism scene/pose_change scene/round/round_body scene/scene_bodies scene/seen_body scene/round/support_table
+  set(apart exact/precise_closest_point field/plane_fitter geometry/path_gap
+    grid_group/grid_group scene/pose_change scene/round/round_body scene/scene_bodies scene/seen_body scene/round/support_table
     scene/surface_list scene/near_surface scene/pose scene/round/primitives search/many/curve_order search/linear_scan search/ties/nearest_of_ties
-    search/ties/same_location bvh/build/bounding_cylinder sphere_cluster/queries/nearest
-    sphere_cluster/queries/neighborhood sphere_cluster/queries/touch)
+    search/ties/same_location bvh/build/bounding_cylinder point_queries/nearest
+    point_queries/neighborhood point_queries/touch)
   foreach(name IN LISTS apart)
     if(NOT EXISTS ${PROJECT_SOURCE_DIR}/core/${name}.cpp)
       message(FATAL_ERROR "touchmark_unite_folders: there is no core/${name}.cpp")

@@ -18,6 +18,7 @@
 
 #include "core/bvh/build/unbuilt_parts.h"
 #include "core/geometry/point_triangle.h"
+#include "core/search/plane_filter/plane_filter.h"
 
 namespace touchmark::bvh {
 
@@ -98,6 +99,18 @@ using Node = Children<width>;
 /// x[k][i] px + y[k][i] py + z[k][i] pz + offset[k][i] at p. What fills up the last block is infinitely far.
 struct alignas(64) TriangleBlock {
   float x[4][width], y[4][width], z[4][width], offset[4][width];
+
+  /// Takes the planes of triangle i out of the eight lines that they are spread over.
+  TrianglePlanes planes(std::uint32_t i) const noexcept {
+    TrianglePlanes planes;
+    for (int k = 0; k < 4; ++k) {
+      planes.x[k] = x[k][i];
+      planes.y[k] = y[k][i];
+      planes.z[k] = z[k][i];
+      planes.offset[k] = offset[k][i];
+    }
+    return planes;
+  }
 };
 
 /// Leaves elements as they are until they are set: most memory of a tree that is built lazily is not touched

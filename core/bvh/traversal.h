@@ -27,6 +27,7 @@
 #include "core/bvh/build/lazy_builder.h"
 #include "core/bvh/kept_nearest.h"
 #include "core/bvh/leaf_list.h"
+#include "core/bvh/limited_point.h"
 #include "core/bvh/node.h"
 #include "core/bvh/plane_list.h"
 #include "core/bvh/swept_ball.h"

@@ -405,6 +405,16 @@ template <class Visitor>
   unseen = min(unseen, Wide{} + skipped);
 }
 
+/// Searches as traverse does when every triangle within the visitor's limit is in one of the blocks.
+template <class Visitor>
+static float search_blocks(const Parts& tree, const FilterPoint& point, std::span<const ChildRef> blocks,
+                    Visitor& visitor) noexcept {
+  const Point p = broadcast(point);
+  Wide unseen = Wide{} + farthest;
+  for (const ChildRef ref : blocks) visit_block(tree, ref.index(), p, unseen, visitor);
+  return reduce_min(unseen);
+}
+
 /// Searches as traverse does when every triangle within the visitor's limit is in a listed leaf. `moved` is
 /// how far the point is from the list's centre. It goes in passes, so that no call and no branch on what was
 /// found interrupts the wide arithmetic.
@@ -445,6 +455,7 @@ static float search_leaves(const Parts& tree, const FilterPoint& point, const Le
 }
 
 #include "core/bvh/kept_nearest.inl"
+#include "core/bvh/limited_point.inl"
 #include "core/bvh/list_near.inl"
 #include "core/bvh/plane_list.inl"
 #include "core/bvh/sweep_search.inl"

@@ -90,26 +90,25 @@ void WideBvh::fill_distances() {
   distances_.fill(samplers_of(*this), threads_);
 }
 
-void WideBvh::refill_distances(const bvh::MovedTriangles& moved) {
+void WideBvh::refill_distances(std::size_t moved, const std::vector<Aabb>& boxes) {
   if (distances_.empty()) return;
-  if (2 * moved.count > parts_.triangles.size() || !distances_.holds(frame_, bounds_))
-    return fill_distances();
-  std::vector<Aabb> boxes;
-  for (const Aabb& one : moved.boxes) boxes.push_back(frame_.to_frame(one));
+  if (2 * moved > parts_.triangles.size() || !distances_.holds(frame_, bounds_)) return fill_distances();
   distances_.refill(samplers_of(*this), boxes, threads_);
 }
 
-bool WideBvh::update(const TriangleMesh& mesh) {
-  if (!parts_.unbuilt.empty()) return false;  // it is built anew in less time than all of it moves
-  if (!searchable_ || !FilterFrame::fits(mesh.bounds()) || !frame_.widen(mesh.bounds())) return false;
+std::optional<std::vector<Aabb>> WideBvh::update(const TriangleMesh& mesh) {
+  if (!parts_.unbuilt.empty()) return std::nullopt;  // it is built anew in less time than all of it moves
+  if (!searchable_ || !FilterFrame::fits(mesh.bounds()) || !frame_.widen(mesh.bounds())) return std::nullopt;
   epoch_ = Epoch::next();
   bounds_ = mesh.bounds();
   measure_box();
   const bvh::MovedTriangles moved = bvh::refit_tree(parts_, mesh, frame_);
-  if (moved.count == 0) return true;
+  std::vector<Aabb> boxes;
+  for (const Aabb& one : moved.boxes) boxes.push_back(frame_.to_frame(one));
+  if (moved.count == 0) return boxes;
   measure_leaves();
-  refill_distances(moved);
-  return true;
+  refill_distances(moved.count, boxes);
+  return boxes;
 }
 
 std::size_t WideBvh::bytes() const noexcept {

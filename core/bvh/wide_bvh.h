@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "core/aabb.h"
 #include "core/bvh/clusters.h"
@@ -16,10 +18,6 @@
 #include "core/triangle_mesh.h"
 
 namespace touchmark {
-
-namespace bvh {
-struct MovedTriangles;
-}  // namespace bvh
 
 /// Constant after it is built, but for parts and samples that lazy construction leaves to the first queries
 /// that need them; any number of threads may search it. It names no query: traversal.h says what a search is.
@@ -36,9 +34,10 @@ class WideBvh {
   /// queries.
   WideBvh(const TriangleMesh& mesh, const bvh::Clusters* clusters, const Options& options);
 
-  /// Takes the same triangles, some of them elsewhere, and a new epoch. Returns false where the mesh is now
-  /// of another size or at another position: nothing has changed then, and the hierarchy is to be built anew.
-  bool update(const TriangleMesh& mesh);
+  /// Takes the same triangles, some of them elsewhere, and a new epoch. Returns boxes of the frame each of
+  /// which holds some triangles that moved, as they were and as they are; nothing where the mesh is now of
+  /// another size or at another position: nothing has changed then, and the hierarchy is to be built anew.
+  std::optional<std::vector<Aabb>> update(const TriangleMesh& mesh);
   std::size_t bytes() const noexcept;
 
   const Epoch& epoch() const noexcept { return epoch_; }  ///< epoch of the triangles as they are
@@ -83,7 +82,7 @@ class WideBvh {
   void measure_box() noexcept;
   void measure_leaves() noexcept;
   void fill_distances();
-  void refill_distances(const bvh::MovedTriangles& moved);
+  void refill_distances(std::size_t moved, const std::vector<Aabb>& boxes);
 
   Epoch epoch_ = Epoch::next();
   Simd simd_ = Simd::portable;

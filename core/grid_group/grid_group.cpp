@@ -1,10 +1,15 @@
 #include "core/grid_group/grid_group.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "core/flushed_denormals.h"
 #include "core/grid_group/build_input.h"
+#include "core/grid_group/direct/group_builder.h"
+#include "core/grid_group/direct/group_finder.h"
+#include "core/point_queries/nearest_search.h"
 #include "core/search/threads/parallel.h"
 
 namespace touchmark {
@@ -23,66 +28,67 @@ void GridGroup::check(const Options& options) {
 GridGroup GridGroup::build(const TriangleMesh& mesh, const Options& options) {
   check(options);
   check_flushed_denormals(mesh);
+  const unsigned threads = threads_to_use(options.threads, "grid-group");
   GridGroup detector;
   detector.options_ = options;
   detector.connectivity_ = Connectivity(mesh);
-  if (mesh.bounds().extent().isZero(0)) {
-    detector.form_ = BruteForce::build(grid::first_triangle(mesh));
-  } else if (!FilterFrame::fits(mesh.bounds())) {
-    detector.form_ = BruteForce::build(mesh);
-  } else {
-    detector.form_ = grid::DirectGrid::build(
-        mesh, {options.cell, options.bytes_per_triangle, options.certified,
-               options.construction == Construction::lazy, threads_to_use(options.threads, "grid-group")});
-  }
+  grid::GroupedSurface& surface = detector.surface_;
+  surface.bvh = WideBvh(mesh, nullptr, {.threads = threads});
+  surface.certified = options.certified;
+  if (!FilterFrame::fits(mesh.bounds())) return detector;
+  surface.cells =
+      grid::Cells(mesh.bounds(), options.cell, mesh.size(), detector.bytes_left(surface.bvh.bytes()) / 4);
+  if (!detector.builds_lazily()) surface.cells.fill(surface.bvh, threads);
+  surface.groups = grid::build_groups(
+      surface.bvh, {detector.bytes_left(surface.bytes()), detector.builds_lazily(), threads});
   return detector;
 }
 
 void GridGroup::update(const TriangleMesh& mesh) {
   connectivity_.expect(mesh);
-  auto* grid = std::get_if<grid::DirectGrid>(&form_);
-  if (grid == nullptr || !grid->update(mesh)) *this = build(mesh, options_);
+  const std::optional<std::vector<Aabb>> moved = surface_.bvh.update(mesh);
+  if (!moved) {
+    *this = build(mesh, options_);
+    return;
+  }
+  if (moved->empty()) return;
+  const unsigned threads = threads_to_use(options_.threads, "grid-group");
+  builds_lazily() ? surface_.cells.clear() : surface_.cells.fill(surface_.bvh, threads);
+  // The old groups make room for the new ones.
+  const std::size_t left = bytes_left(surface_.bytes() - surface_.groups.bytes());
+  surface_.groups =
+      grid::rebuild_groups(surface_.bvh, surface_.groups, *moved, {left, builds_lazily(), threads});
 }
 
-bool GridGroup::look_for_touch(const Probe& probe, Session& session) const noexcept {
-  if (!(probe.radius >= 0)) return false;
-  if (direct() == nullptr) return brute_force().touches(probe, session);
-  session.question = {LastQuestion::Query::touches, probe.radius};
-  return direct()->touches(probe, session.memory, session.work);
+std::size_t GridGroup::bytes_left(std::size_t taken) const noexcept {
+  constexpr double limit = 0x1p62;
+  const double bytes =
+      options_.bytes_per_triangle * static_cast<double>(surface_.bvh.parts().triangles.size());
+  const auto most = static_cast<std::size_t>(std::min(bytes, limit));
+  return most - std::min(most, taken);
 }
 
-std::optional<Contact> GridGroup::look_for_nearest(const Probe& probe, double reach,
+std::optional<Contact> GridGroup::look_for_nearest(const Vec3& center, double reach,
                                                    Session& session) const noexcept {
-  if (!(reach >= 0)) return std::nullopt;
-  if (direct() == nullptr) return brute_force().nearest(probe, reach, session);
-  session.question = {LastQuestion::Query::nearest, reach};
-  return direct()->nearest(probe.center, reach, session.memory, session.work);
+  const std::uint64_t before = session.work.total();
+  std::optional<Contact> contact =
+      queries::nearest_over(surface_, center, reach, session.memory, session.work);
+  if (builds_lazily()) make_missing(session.work.total() - before, session);
+  return contact;
 }
 
-std::optional<Impact> GridGroup::look_for_impact(const Sweep& sweep, Session& session) const noexcept {
-  if (!(sweep.radius >= 0)) return std::nullopt;
-  if (direct() == nullptr) return brute_force().first_hit(sweep, session);
-  session.question = {LastQuestion::Query::sweep, sweep.radius};
-  return direct()->first_hit(sweep, session.memory, session.work);
-}
-
-std::size_t GridGroup::look_for_contacts(const Probe& probe, double reach, Session& session,
-                                         std::span<Contact> into) const noexcept {
-  if (!(reach >= 0)) return 0;
-  if (direct() == nullptr) return brute_force().contacts(probe, reach, session, into);
-  return direct()->contacts(probe.center, reach, session.memory, into, session.work);
-}
-
-void GridGroup::prepare(Session& session) const noexcept {
-  if (direct() != nullptr) direct()->prepare(session.question, session.memory, session.work);
-}
-
-Accuracy GridGroup::accuracy() const noexcept {
-  return direct() == nullptr || direct()->is_certified() ? certified : uncertified;
-}
-
-std::size_t GridGroup::bytes() const noexcept {
-  return direct() == nullptr ? brute_force().bytes() : direct()->bytes();
+void GridGroup::make_missing(std::uint64_t spent, Session& session) const noexcept {
+  const std::uint32_t slot = session.memory.slot;
+  const grid::Groups& groups = surface_.groups;
+  if (groups.empty() || session.memory.epoch != surface_.bvh.epoch() || !session.memory.is_near()) return;
+  if (session.memory.upper <= surface_.cells.edge()) surface_.cells.name(session.memory.center, slot);
+  // With what answered the query it is to be no more than two looks at every triangle.
+  const std::uint64_t budget =
+      std::min(remaining(2 * std::uint64_t{surface_.bvh.parts().triangles.size()}, spent), max_lazy_work / 2);
+  if (budget < grid::GroupFinder::min_budget || !groups.is_unbuilt(slot) || !groups.claim(slot)) return;
+  grid::GroupFinder finder(surface_.bvh, grid::exclusion_margin_for(surface_.bvh), budget);
+  groups.put(slot, finder.find(slot));
+  session.work += finder.work();
 }
 
 }  // namespace touchmark

@@ -2,12 +2,13 @@
 /// grid-group detector. The form as published is core/grid_group/published/published_grid_group.h.
 ///
 /// As in the paper, the HIP's position names the triangles to look at:
-/// 1. A sampled distance field rejects what is far (core/search/distance_field/distance_field.h).
-/// 2. The triangle of the tick before, or else an octree of cells each of which names a triangle near its
-///    middle, gives the triangle to start from (cell_tree.h).
-/// 3. That triangle's group is looked at if it covers the point: the list of all triangles that can be
-///    nearest in a prism over the triangle, found when the grid is built (prism.h, groups.h).
-/// 4. Elsewhere a tree of eight-wide boxes over all triangles is searched, nearest first (box_tree.h).
+/// 1. What the tick before left, or a sampled distance field, answers what it can
+///    (core/point_queries/memory.h).
+/// 2. The triangle of the tick before, or else the uniform cell that holds the HIP, gives the triangle to
+///    start from (cells.h).
+/// 3. That triangle's group is looked at if it covers the point: all triangles that can be nearest in a prism
+///    over the triangle, found when the groups are built (prism.h, groups.h).
+/// 4. Elsewhere a hierarchy over all triangles is searched, nearest first (core/bvh/wide_bvh.h).
 /// It is exact at any radius and reach.
 #pragma once
 
@@ -15,12 +16,11 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <variant>
 
-#include "core/brute_force/brute_force.h"
 #include "core/detector.h"
-#include "core/grid_group/direct/direct_grid.h"
+#include "core/grid_group/direct/grouped_surface.h"
 #include "core/mesh_update.h"
+#include "core/point_queries/queries.h"
 
 namespace touchmark {
 
@@ -41,10 +41,7 @@ class GridGroup {
     unsigned threads = 1;  ///< build it, at most 256; 0: as many as there are processors; the same bits
   };
   /// What one haptic point remembers between ticks.
-  struct Session : BruteForce::Session {
-    LastQuestion question;
-    grid::DirectMemory memory;
-  };
+  using Session = queries::Session;
 
   /// Throws std::invalid_argument for a cell below 0 or not finite, a budget below 200, or too many threads.
   static void check(const Options& options);
@@ -56,59 +53,68 @@ class GridGroup {
   /// become of another size or place.
   void update(const TriangleMesh& mesh);
 
-  // Inline as far as clear space: there a query is a few comparisons, less than a call.
-  bool touches(const Probe& probe, Session& session) const noexcept {
-    return !is_clear(probe.center, probe.radius, session) && look_for_touch(probe, session);
+  // Inline as far as what is known without a look: there a query is a few comparisons, less than a call.
+  [[gnu::always_inline]] bool touches(const Probe& probe, Session& session) const noexcept {
+    if (queries::is_clear_at_once(surface_.bvh, probe.center, probe.radius, session.memory)) return false;
+    if (queries::is_touching(surface_.bvh, probe.center, probe.radius, session.memory)) return true;
+    if (!(probe.radius >= 0)) return false;
+    session.question = {LastQuestion::Query::touches, probe.radius};
+    return queries::touches(surface_, probe, session.memory, session.work);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
-    if (is_clear(probe.center, reach, session)) return std::nullopt;
-    return look_for_nearest(probe, reach, session);
+    if (queries::is_clear_at_once(surface_.bvh, probe.center, reach, session.memory) || !(reach >= 0))
+      return std::nullopt;
+    session.question = {LastQuestion::Query::nearest, reach};
+    return look_for_nearest(probe.center, reach, session);
   }
   /// A ball that holds both ends of a path holds all of it.
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
-    if (is_clear(sweep.from, sweep.radius, session) && is_clear(sweep.to, sweep.radius, session))
+    if (queries::is_clear_at_once(surface_.bvh, sweep, session.memory) || !(sweep.radius >= 0))
       return std::nullopt;
-    return look_for_impact(sweep, session);
+    session.question = {LastQuestion::Query::sweep, sweep.radius};
+    return queries::first_hit(surface_, sweep, session.memory, session.work);
   }
 
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept {
-    return is_clear(probe.center, reach, session) ? 0 : look_for_contacts(probe, reach, session, into);
+    if (queries::is_clear_at_once(surface_.bvh, probe.center, reach, session.memory) || !(reach >= 0))
+      return 0;
+    return queries::contacts(surface_, probe.center, reach, session.memory, into, true, session.work);
   }
 
-  /// Asks the last question again where the point was, unless that is known to be clear. The next query then
-  /// finds its data and its code in the caches, best when this is called just before the device is read. Work
-  /// is bounded as a query's is.
-  void prepare(Session& session) const noexcept;
+  /// Asks the last question again where the point will be if it goes on as it moved, unless that is known to
+  /// be clear. The next query then finds its data and its code in the caches, best when this is called just
+  /// before the device is read. Work is bounded as that of two queries is.
+  void prepare(Session& session) const noexcept {
+    queries::prepare(surface_, session.question, session.memory, session.work);
+  }
 
-  std::size_t bytes() const noexcept;
-  Accuracy accuracy() const noexcept;
+  /// Bounds what lazy construction adds to a query: no more boxes and triangles than this besides those that
+  /// answer it, and with those no more than twice as many as there are triangles, and a little.
+  static constexpr std::uint64_t max_lazy_work = 10'000;
+
+  std::size_t bytes() const noexcept { return surface_.bytes(); }
+  Accuracy accuracy() const noexcept { return options_.certified ? certified : uncertified; }
   bool builds_lazily() const noexcept { return options_.construction == Construction::lazy; }
 
   /// Triangles that have a group.
-  std::size_t groups() const noexcept { return direct() == nullptr ? 1 : direct()->groups(); }
+  std::size_t groups() const noexcept { return surface_.groups.count(); }
   /// Edge of the smallest cell, in mesh units; 0 where the mesh's extent admits no cells.
-  double cell() const noexcept { return direct() == nullptr ? 0 : direct()->cell(); }
-  /// Were the cells made larger than asked, or fewer than wanted, to keep within memory?
-  bool coarsened() const noexcept { return direct() != nullptr && direct()->coarsened(); }
+  double cell() const noexcept { return surface_.cells.edge(); }
+  /// Were the cells made larger than asked, or fewer groups than wanted, to keep within memory?
+  bool coarsened() const noexcept { return surface_.cells.coarsened() || surface_.groups.ran_out(); }
 
  private:
-  const grid::DirectGrid* direct() const noexcept { return std::get_if<grid::DirectGrid>(&form_); }
-  /// Answers where `direct` is null.
-  const BruteForce& brute_force() const noexcept { return *std::get_if<BruteForce>(&form_); }
-  bool is_clear(const Vec3& center, double reach, const Session& session) const noexcept {
-    return direct() != nullptr && direct()->is_clear(center, reach, session.memory);
-  }
-  bool look_for_touch(const Probe& probe, Session& session) const noexcept;
-  std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
-  std::optional<Impact> look_for_impact(const Sweep& sweep, Session& session) const noexcept;
-  std::size_t look_for_contacts(const Probe& probe, double reach, Session& session,
-                                std::span<Contact> into) const noexcept;
+  /// Returns how many bytes are left for groups, and cells, by what the rest takes.
+  std::size_t bytes_left(std::size_t taken) const noexcept;
+  std::optional<Contact> look_for_nearest(const Vec3& center, double reach, Session& session) const noexcept;
+  /// Makes what the last query missed: the group of the triangle it found, and names that in the cell.
+  /// `spent` counts what the query looked at.
+  void make_missing(std::uint64_t spent, Session& session) const noexcept;
 
   Options options_;
   Connectivity connectivity_;
-  /// BruteForce serves the meshes whose extent is zero or whose squares leave the range of double.
-  std::variant<BruteForce, grid::DirectGrid> form_;
+  grid::GroupedSurface surface_;
 };
 
 }  // namespace touchmark

@@ -10,7 +10,7 @@
 
 #include "core/detector.h"
 #include "core/mesh_update.h"
-#include "core/sphere_cluster/queries/queries.h"
+#include "core/point_queries/queries.h"
 
 namespace touchmark {
 
@@ -31,17 +31,7 @@ class SphereCluster {
     unsigned threads = 1;  ///< build it, at most 256; 0: as many as there are processors; the same bits
   };
   /// What one haptic point remembers between ticks.
-  struct Session {
-    Work work;
-    LastQuestion question;
-    spheres::PointMemory memory;
-
-    /// Forgets all but the counters.
-    void forget() noexcept {
-      question = {};
-      memory.start_anew();
-    }
-  };
+  using Session = queries::Session;
 
   /// What is remembered of one of many points, in six cache lines.
   using FollowedPoint = bvh::FollowedPoint;
@@ -57,57 +47,61 @@ class SphereCluster {
 
   // Inline as far as what is known without a look: there a query is a few comparisons, less than a call.
   [[gnu::always_inline]] bool touches(const Probe& probe, Session& session) const noexcept {
-    if (is_clear(probe.center, probe.radius, session)) return false;
-    if (spheres::is_touching(surface_.bvh, probe.center, probe.radius, session.memory)) return true;
+    if (queries::is_clear_at_once(surface_.bvh, probe.center, probe.radius, session.memory)) return false;
+    if (queries::is_touching(surface_.bvh, probe.center, probe.radius, session.memory)) return true;
     if (!(probe.radius >= 0)) return false;
     session.question = {LastQuestion::Query::touches, probe.radius};
-    return spheres::touches(surface_, probe, session.memory, session.work);
+    return queries::touches(surface_, probe, session.memory, session.work);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
-    if (is_clear(probe.center, reach, session) || !(reach >= 0)) return std::nullopt;
+    if (queries::is_clear_at_once(surface_.bvh, probe.center, reach, session.memory) || !(reach >= 0))
+      return std::nullopt;
     session.question = {LastQuestion::Query::nearest, reach};
-    return spheres::nearest(surface_, probe.center, reach, session.memory, session.work);
+    return queries::nearest(surface_, probe.center, reach, session.memory, session.work);
   }
   /// Answers likewise for one of many points that are asked again and again. See the concept FollowsPoints.
   std::optional<Contact> nearest(const Probe& probe, double reach, FollowedPoint& followed,
                                  Work& work) const noexcept {
-    if (spheres::is_clear(surface_.bvh, probe.center, reach, followed) || !(reach >= 0)) return std::nullopt;
-    return spheres::nearest(surface_, probe.center, reach, followed, work);
+    if (queries::is_clear(surface_.bvh, probe.center, reach, followed) || !(reach >= 0)) return std::nullopt;
+    return queries::nearest(surface_, probe.center, reach, followed, work);
   }
   /// See the concept TellsCloseTriangles: true unless there are too many or the slack is too much.
   bool close_triangles(const Vec3& center, double reach, double slack, Session& session,
                        CloseTriangles& into) const noexcept {
     into.count = 0;
-    if (spheres::is_clear(surface_.bvh, center, reach, session.memory) || !(reach >= 0)) return true;
+    if (queries::is_clear(surface_.bvh, center, reach, session.memory) || !(reach >= 0)) return true;
     session.question = {LastQuestion::Query::nearest, reach};
-    return spheres::close_triangles(surface_, center, reach, slack, session.memory, into, session.work);
+    return queries::close_triangles(surface_, center, reach, slack, session.memory, into, session.work);
   }
   /// See the concept ListsTriangles.
   bool list_triangles(const Vec3& center, double radius, Session& session,
                       ListedTriangles& into) const noexcept {
-    return spheres::list_triangles(surface_, center, radius, into, session.work);
+    return queries::list_triangles(surface_, center, radius, into, session.work);
   }
   /// See the concept TellsClearance.
   double clearance(const Vec3& center, const Session& session) const noexcept {
-    return spheres::clearance(surface_.bvh, center, session.memory);
+    return queries::clearance(surface_.bvh, center, session.memory);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
-    if (is_clear(sweep, session) || !(sweep.radius >= 0)) return std::nullopt;
+    if (queries::is_clear_at_once(surface_.bvh, sweep, session.memory) || !(sweep.radius >= 0))
+      return std::nullopt;
     session.question = {LastQuestion::Query::sweep, sweep.radius};
-    return spheres::first_hit(surface_, sweep, session.memory, session.work);
+    return queries::first_hit(surface_, sweep, session.memory, session.work);
   }
 
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept {
-    if (is_clear(probe.center, reach, session) || !(reach >= 0)) return 0;
-    return spheres::contacts(surface_, probe.center, reach, session.memory, into, true, session.work);
+    if (queries::is_clear_at_once(surface_.bvh, probe.center, reach, session.memory) || !(reach >= 0))
+      return 0;
+    return queries::contacts(surface_, probe.center, reach, session.memory, into, true, session.work);
   }
   /// See the concept AnswersNearestContacts.
   std::size_t nearest_contacts(const Probe& probe, double reach, Session& session,
                                std::span<Contact> into) const noexcept {
-    if (is_clear(probe.center, reach, session) || !(reach >= 0)) return 0;
+    if (queries::is_clear_at_once(surface_.bvh, probe.center, reach, session.memory) || !(reach >= 0))
+      return 0;
     return std::min(
-        spheres::contacts(surface_, probe.center, reach, session.memory, into, false, session.work),
+        queries::contacts(surface_, probe.center, reach, session.memory, into, false, session.work),
         into.size());
   }
 
@@ -116,7 +110,7 @@ class SphereCluster {
   /// as it moved. The next query then finds its data and its code in the caches, best when this is called
   /// just before the device is read. Work is bounded as that of two queries is.
   void prepare(Session& session) const noexcept {
-    spheres::prepare(surface_, session.question, session.memory, session.work);
+    queries::prepare(surface_, session.question, session.memory, session.work);
   }
 
   std::size_t bytes() const noexcept { return surface_.bvh.bytes(); }
@@ -124,32 +118,9 @@ class SphereCluster {
   Accuracy accuracy() const noexcept { return options_.certified ? certified : uncertified; }
 
  private:
-  /// True if nothing is within reach, as far as that is known without looking into the tree. By what was near
-  /// last, or by the mesh's box, first where that answered last.
-  [[gnu::always_inline]] bool is_clear(const Vec3& center, double reach, Session& session) const noexcept {
-    spheres::PointMemory& memory = session.memory;
-    if (memory.for_box == 0)
-      return spheres::is_clear(surface_.bvh, center, reach, memory) ||
-             spheres::turns_out_beyond_box(surface_.bvh, center, reach, memory);
-    return goes_on_with_box(surface_.bvh.is_beyond_box(center, reach), memory);
-  }
-  /// True if that is known of a whole path.
-  [[gnu::always_inline]] bool is_clear(const Sweep& sweep, Session& session) const noexcept {
-    spheres::PointMemory& memory = session.memory;
-    if (memory.for_box == 0)
-      return spheres::is_clear(surface_.bvh, sweep, memory) ||
-             spheres::turns_out_beyond_box(surface_.bvh, sweep, memory);
-    return goes_on_with_box(surface_.bvh.is_beyond_box(sweep), memory);
-  }
-  /// Goes on with the box if that has answered; returns whether it has.
-  static bool goes_on_with_box(bool is_beyond, spheres::PointMemory& memory) noexcept {
-    is_beyond ? --memory.for_box : memory.for_box = 0;
-    return is_beyond;
-  }
-
   Options options_;
   Connectivity connectivity_;
-  spheres::Surface surface_;
+  queries::Surface surface_;
 };
 
 }  // namespace touchmark

@@ -112,7 +112,7 @@ def plane_points(low, high, pixels, axis, at):
 
 
 PRISM_EDGES = [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)]
-GROWTH, FIRST_HEIGHT = 0.3, 1.0  # core/grid_group/direct/build/group_finder.cpp
+GROWTH, FIRST_HEIGHT = 0.3, 1.0  # core/grid_group/direct/group_finder.cpp
 
 
 def unit_normal(triangle):

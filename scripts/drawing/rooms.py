@@ -29,9 +29,9 @@ def check_layers():
 
 
 def included_rooms(layer, rules):
-    """Room to the rooms of the same layer that its files include; the listed exceptions apart."""
+    """Room to the rooms of the same layer that its files include."""
     rooms = rules.ROOMS.get(layer) or ["", *sorted(folder.parent.name for folder in (ROOT / layer).glob("*/CMakeLists.txt"))]
-    found, exceptions = {room: set() for room in rooms}, set()
+    found = {room: set() for room in rooms}
     for file in sorted((ROOT / layer).rglob("*")):
         path = file.relative_to(ROOT).as_posix()
         if file.suffix not in (".h", ".cpp", ".inl") or path.startswith("bench/regression/driver/"):
@@ -43,11 +43,9 @@ def included_rooms(layer, rules):
             if include[2].startswith(rules.GENERATED):
                 continue
             own, other = rules.room_of(path), rules.room_of(include[2])
-            if (path, include[2]) in rules.EXCEPTIONS:
-                exceptions.add((own, other))
-            elif own != other:
+            if own != other:
                 found[own].add(other)
-    return found, exceptions
+    return found
 
 
 def all_below(found):
@@ -105,7 +103,7 @@ def with_bends(rows, arrows):
     return rows, short
 
 
-def placed(rows, arrows, exceptions, label):
+def placed(rows, arrows, label):
     """Room or bend to its middle, and the width of all. Each row is put in the order that makes its arrows shortest."""
     def wide(one):
         return box_width(label(one)) + GAP
@@ -118,7 +116,6 @@ def placed(rows, arrows, exceptions, label):
                 trial[one] = left + wide(one) / 2
                 left += wide(one)
             length = sum(abs(trial[one] - middles[other][0]) for one in order for other in arrows[one])
-            length += sum(10 * abs(trial[a] - trial[b]) for a, b in exceptions if a in trial and b in trial)
             if best is None or length < best[0]:
                 best = length, trial
         middles.update({one: (x, (len(rows) - 1 - number) * ROW + BOX / 2) for one, x in best[1].items()})
@@ -162,11 +159,11 @@ def drawn_layer(layer, rules):
     """The SVG lines of one layer, its width and its height."""
     def label(one):
         return "" if isinstance(one, tuple) else one or OWN_FILES[layer]
-    found, exceptions = included_rooms(layer, rules)
+    found = included_rooms(layer, rules)
     rooms = list(found)
     needed = needed_arrows(found)
     rows, arrows = with_bends(rows_of(needed), needed)
-    middles, width = placed(rows, arrows, exceptions, label)
+    middles, width = placed(rows, arrows, label)
     lines = []
     for room in rooms:
         for other in arrows[room]:
@@ -177,10 +174,6 @@ def drawn_layer(layer, rules):
                 (other,) = arrows[other]
             x, y = middles[other]
             lines.append(line(points + [(x, y - BOX / 2 - 2)]))
-    for room, other in sorted(exceptions):
-        (x, y), (to_x, _) = middles[room], middles[other]
-        side = 1 if to_x > x else -1
-        lines.append(line([(x + side * box_width(label(room)) / 2, y), (to_x - side * (box_width(label(other)) / 2 + 2), y)]))
     for room in rooms:
         lines += box(*middles[room], box_width(label(room)), label(room))
     return lines, width, (len(rows) - 1) * ROW + BOX

@@ -12,7 +12,6 @@
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/float_limits.h"
-#include "core/grid_group/direct/cell_tree.h"
 #include "core/grid_group/grid_group.h"
 #include "core/grid_group/published/published_grid_group.h"
 #include "core/search/linear_scan.h"
@@ -64,75 +63,6 @@ TEST(FilterFrameFarAway, HoldsTheMeshWhereItsMiddleIsRoundedToItsBorder) {
     // tau is 8 u of the point's coordinates and of the farthest corner's distance.
     const double largest = frame.to_frame(corner).norm();
     EXPECT_GE(static_cast<double>(frame.plane_error(Vec3::Zero())), 8 * 0x1p-24 * largest * (1 - 0x1p-20));
-  }
-}
-
-/// The mesh as the frame has it, where nothing is rounded: powers of two times differences.
-TriangleMesh in_frame(const TriangleMesh& mesh, const FilterFrame& frame) {
-  std::vector<Vec3> vertices;
-  for (const Vec3& v : mesh.vertices()) vertices.push_back(frame.to_frame(v));
-  return {std::move(vertices), {mesh.triangles().begin(), mesh.triangles().end()}};
-}
-
-/// Of the cell of each of many places of the cube: is the mesh no nearer to its middle than it says, nor
-/// farther than at_most says where the search was not cut short?
-void expect_true_distances(const grid::CellTree& cells, const TriangleMesh& mesh, const FilterFrame& frame,
-                           bool also_at_most) {
-  const BruteForce exact = BruteForce::build(in_frame(mesh, frame));
-  BruteForce::Session session;
-  Random random(5);
-  for (int i = 0; i < 400; ++i) {
-    const Vec3 place = somewhere(random, 1.03);
-    if (!cells.holds(place)) continue;
-    const grid::Cell cell = cells.at(place);
-    const double distance = exact.nearest({cell.middle, 0}, infinity, session)->distance;
-    EXPECT_LE(cell.distance, distance * (1 + 0x1p-40));
-    if (also_at_most) {
-      EXPECT_GE(cells.upper_bound(cell.distance), distance);
-    }
-  }
-}
-
-TEST(CellTreeFarAway, KnowsTheDistanceFromTheMiddleOfEachCell) {
-  for (const int exponent : {0, 30, 34, 38, 42, 46, 50}) {
-    SCOPED_TRACE("2^" + std::to_string(exponent));
-    const TriangleMesh mesh = ball_at(exponent);
-    const grid::TriangleStore store = grid::TriangleStore::build(mesh);
-    const grid::BoxTree tree(store);
-    for (const bool lazy : {false, true}) {
-      for (const double smallest : {0.0, 0.01}) {
-        const grid::CellTree cells =
-            grid::CellTree::build(store, tree, {smallest, std::size_t{1} << 20, lazy});
-        expect_true_distances(cells, mesh, store.frame, !lazy);
-        Work work;
-        Random random(7);
-        for (int i = 0; lazy && i < 100; ++i) {
-          const Vec3 place = somewhere(random, 1.03);
-          if (cells.holds(place)) cells.build_lazily(place, store, tree, any_work, work);
-        }
-        expect_true_distances(cells, mesh, store.frame, !lazy);
-      }
-    }
-  }
-}
-
-TEST(CellTreeFarAway, KnowsItAfterAnUpdate) {
-  for (const int exponent : {0, 38, 44, 48, 50}) {
-    SCOPED_TRACE("2^" + std::to_string(exponent));
-    const TriangleMesh mesh = ball_at(exponent);
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      grid::TriangleStore store = grid::TriangleStore::build(bench::meshes::displaced(mesh, seed));
-      const grid::BoxTree before(store);
-      for (const bool lazy : {false, true}) {
-        grid::TriangleStore moving = store;
-        grid::CellTree cells = grid::CellTree::build(moving, before, {0.02, std::size_t{1} << 20, lazy});
-        ASSERT_TRUE(moving.frame.widen(mesh.bounds()));
-        const std::vector<Aabb> moved = moving.move(mesh);
-        const grid::BoxTree after(moving);
-        cells.update(moving, after, moved);
-        expect_true_distances(cells, mesh, moving.frame, !lazy);
-      }
-    }
   }
 }
 

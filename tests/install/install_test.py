@@ -74,8 +74,8 @@ FUSED = ["-mfma", "-ffp-contract=fast"]  # as GCC has it with -march=native on m
 # which leaves 2^-40 and more of it for rounding.
 # Templates that only pass these queries on have the same comparisons in them.
 FUSED_WITHOUT_HARM = re.compile(r"(auto |bool |void |std::optional<[\w:]+> )?"
-                                r"touchmark::((Aabb::center|grid::DirectMemory::moved_less|"
-                                r"spheres::is_(clear|touching)|grid::DirectGrid::is_clear|WideBvh::is_beyond_box|ManySessions<.*>::ask|"
+                                r"touchmark::((Aabb::center|"
+                                r"queries::is_(clear|clear_at_once|touching)|WideBvh::is_beyond_box|ManySessions<.*>::ask|"
                                 r"(GridGroup|SphereCluster|AutoDetector|Signed<.*>|CertifiedField<.*>)::(touches|nearest|first_hit|contacts|is_clear|sampler))\(|"
                                 r"AutoDetector::ask<|nearest_many<)")
 

@@ -5,38 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/grid_group/direct/wide_rows.h"
-#include "core/simd/dispatch.h"
-
 namespace touchmark::grid {
-
-namespace portable {
-namespace {
-#include "core/grid_group/direct/prism_exclusion.inl"
-}  // namespace
-}  // namespace portable
-
-#if TOUCHMARK_HAS_AVX2
-TOUCHMARK_TARGET("avx2")
-namespace avx2 {
-namespace {
-#include "core/grid_group/direct/prism_exclusion.inl"
-}  // namespace
-}  // namespace avx2
-TOUCHMARK_END_TARGET
-
-TOUCHMARK_TARGET("avx2,avx512f,avx512vl,avx512dq")
-namespace avx512 {
-namespace {
-#include "core/grid_group/direct/prism_exclusion.inl"
-}  // namespace
-}  // namespace avx512
-TOUCHMARK_END_TARGET
-
-namespace {
-const Simd widest = widest_simd();
-}  // namespace
-#endif
 
 FaceFrame::FaceFrame(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept
     : normal(triangle.normal) {
@@ -61,7 +30,7 @@ Prism::Prism(const FaceFrame& face_frame, double growth, double height, double e
              const FilterFrame& frame) noexcept {
   set_points(face_frame, growth, height, frame);
   set_limits(face_frame, growth, height, exclusion_margin);
-  set_ball_limits(face_frame, height, exclusion_margin);
+  set_corners(face_frame, height, exclusion_margin);
 }
 
 void Prism::set_points(const FaceFrame& face_frame, double growth, double height,
@@ -71,13 +40,13 @@ void Prism::set_points(const FaceFrame& face_frame, double growth, double height
     for (int j = 0; i + j <= cuts; ++j)
       base_[number(i, j)] = corner[0] + (i * (corner[1] - corner[0]) + j * (corner[2] - corner[0])) / cuts;
   }
-  for (std::size_t k = 0; k < points; ++k) {
+  for (std::size_t k = 0; k < point_count; ++k) {
     const Vec3 p = base_[k % points_an_end] + (k < points_an_end ? -height : height) * face_frame.normal;
-    points_.x[k] = static_cast<float>(p.x());
-    points_.y[k] = static_cast<float>(p.y());
-    points_.z[k] = static_cast<float>(p.z());
-    points_.plane_error = std::max(points_.plane_error, frame.plane_error(p));
+    plane_error_ = std::max(plane_error_, frame.plane_error(p));
+    points_[k].at = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 0};
+    radius_ = std::max(radius_, (p - face_frame.incenter).norm());
   }
+  for (bvh::LimitedPoint& point : points_) point.at.plane_error = plane_error_;
 }
 
 void Prism::set_limits(const FaceFrame& face_frame, double growth, double height,
@@ -111,54 +80,27 @@ void Prism::set_limits(const FaceFrame& face_frame, double growth, double height
     }
   }
   for (std::size_t k = 0; k < points_an_end; ++k) {
-    const double distance =
-        std::sqrt(across[k] + height * height) + 4 * static_cast<double>(points_.plane_error);
+    const double distance = std::sqrt(across[k] + height * height) + 4 * static_cast<double>(plane_error_);
     farthest_ = std::max(farthest_, distance);
-    points_.limit[k] = points_.limit[k + points_an_end] = static_cast<float>(distance * distance);
+    points_[k].limit = points_[k + points_an_end].limit = static_cast<float>(distance * distance);
   }
   // To lose by `exclusion_margin` at distance x, the square must lose by margin (2x + margin), wherever x is
   // in the prism.
   const auto pad = static_cast<float>(exclusion_margin * (2 * farthest_ + exclusion_margin));
-  for (float& limit : points_.limit) limit = (limit + pad) * (1 + 0x1p-20f);
+  for (bvh::LimitedPoint& point : points_) point.limit = (point.limit + pad) * (1 + 0x1p-20f);
 }
 
-void Prism::set_ball_limits(const FaceFrame& face_frame, double height, double exclusion_margin) noexcept {
+void Prism::set_corners(const FaceFrame& face_frame, double height, double exclusion_margin) noexcept {
   // The whole prism as one part, its witness the incenter.
-  const std::array<Vec3, 3> corner = {base_[number(0, 0)], base_[number(cuts, 0)], base_[number(0, cuts)]};
-  double farthest = 0;
-  for (const Vec3& c : corner) farthest = std::max(farthest, (c - face_frame.incenter).norm() + height);
+  const double margin = exclusion_margin * (2 * radius_ + exclusion_margin);
   for (std::size_t i = 0; i < 6; ++i) {
-    const Vec3 p = corner[i % 3] + (i < 3 ? -height : height) * face_frame.normal;
-    const double distance = std::sqrt((p - face_frame.incenter).squaredNorm() +
-                                      exclusion_margin * (2 * farthest + exclusion_margin));
-    corner_limits_[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
-                         static_cast<float>(distance + 4 * static_cast<double>(points_.plane_error))};
+    const std::array<std::size_t, 3> numbers = {number(0, 0), number(cuts, 0), number(0, cuts)};
+    const std::size_t at = numbers[i % 3];
+    const double squared = (base_[at] - face_frame.incenter).squaredNorm() + height * height;
+    const double distance = std::sqrt(squared + margin) + 4 * static_cast<double>(plane_error_);
+    corners_[i] = {points_[i < 3 ? at : at + points_an_end].at,
+                   static_cast<float>(distance * distance) * (1 + 0x1p-20F)};
   }
-}
-
-namespace {
-
-/// Asks about as many slots at a time as there are lanes.
-template <std::size_t lanes, class Excluded>
-unsigned in_lanes(const std::uint32_t* slots, const Excluded& excluded) noexcept {
-  unsigned bits = 0;
-  for (std::size_t at = 0; at < Prism::triangles_a_look; at += lanes) bits |= excluded(slots + at) << at;
-  return bits;
-}
-
-}  // namespace
-
-unsigned Prism::excluded(const std::uint32_t* slots, const TrianglePlanes* planes,
-                         const TriangleBall* balls) const noexcept {
-#if TOUCHMARK_HAS_AVX2
-  if (widest == Simd::avx512) return avx512::excluded(points_, slots, planes, balls);
-  if (widest == Simd::avx2) {
-    return in_lanes<avx2::lanes>(
-        slots, [&](const std::uint32_t* some) { return avx2::excluded(points_, some, planes, balls); });
-  }
-#endif
-  return in_lanes<portable::lanes>(
-      slots, [&](const std::uint32_t* some) { return portable::excluded(points_, some, planes, balls); });
 }
 
 }  // namespace touchmark::grid

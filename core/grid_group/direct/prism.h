@@ -8,12 +8,11 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
+#include <span>
 
+#include "core/bvh/limited_point.h"
 #include "core/geometry/point_triangle.h"
-#include "core/grid_group/direct/triangle_store.h"
 #include "core/search/plane_filter/plane_filter.h"
-#include "core/simd/lanes.h"
 
 namespace touchmark::grid {
 
@@ -31,21 +30,6 @@ struct FaceFrame {
   std::array<Vec3, 3> grown(double growth) const noexcept;
 };
 
-/// Points of a prism as plain arrays: what is farther from all of them than each one's limit loses everywhere
-/// in it.
-struct PrismPoints {
-  static constexpr std::size_t count = 12;
-
-  std::array<float, count> x, y, z;
-  std::array<float, count> limit;  ///< squared
-  float plane_error = 0;
-};
-
-/// A point, and the distance from it beyond which a ball loses there.
-struct BallLimit {
-  float x, y, z, limit;
-};
-
 class Prism {
  public:
   /// The prism reaches from `height` under the grown triangle to `height` over it. A triangle that is left
@@ -54,22 +38,21 @@ class Prism {
   Prism(const FaceFrame& face_frame, double growth, double height, double exclusion_margin,
         const FilterFrame& frame) noexcept;
 
-  /// Bit i of sixteen is set where the triangle in slot i is surely not nearest anywhere in the prism. Planes
-  /// and balls are those of a TriangleStore.
-  unsigned excluded(const std::uint32_t* slots, const TrianglePlanes* planes,
-                    const TriangleBall* balls) const noexcept;
-  /// For a quick look at balls first: what is in a ball that is beyond these limits is nearest nowhere.
-  const std::array<BallLimit, 6>& corner_limits() const noexcept { return corner_limits_; }
-  static constexpr std::size_t triangles_a_look = 16;
+  /// What is farther from all of these points than each one's limit is nearest nowhere in the prism.
+  std::span<const bvh::LimitedPoint> points() const noexcept { return points_; }
+  /// For a quick look at bounding volumes first: what is in one that is beyond all of these is nearest
+  /// nowhere.
+  std::span<const bvh::LimitedPoint> corners() const noexcept { return corners_; }
   /// No point of the prism is farther than this from its triangle.
   double farthest() const noexcept { return farthest_; }
+  /// No point of the prism is farther than this from the triangle's incenter.
+  double radius() const noexcept { return radius_; }
 
  private:
   /// The triangle's sides are cut in so many.
   static constexpr int cuts = 2;
   static constexpr std::size_t points_an_end = (cuts + 1) * (cuts + 2) / 2;
-  static constexpr std::size_t points = 2 * points_an_end;
-  static_assert(points == PrismPoints::count);
+  static constexpr std::size_t point_count = 2 * points_an_end;
 
   /// Returns the number of the lattice point that is i cuts from corner 0 towards 1 and j towards 2.
   static constexpr std::size_t number(int i, int j) {
@@ -80,12 +63,13 @@ class Prism {
                   const FilterFrame& frame) noexcept;
   void set_limits(const FaceFrame& face_frame, double growth, double height,
                   double exclusion_margin) noexcept;
-  void set_ball_limits(const FaceFrame& face_frame, double height, double exclusion_margin) noexcept;
+  void set_corners(const FaceFrame& face_frame, double height, double exclusion_margin) noexcept;
 
   std::array<Vec3, points_an_end> base_;
-  PrismPoints points_;
-  std::array<BallLimit, 6> corner_limits_;
-  double farthest_ = 0;
+  std::array<bvh::LimitedPoint, point_count> points_;
+  std::array<bvh::LimitedPoint, 6> corners_;
+  float plane_error_ = 0;  ///< the largest of these points
+  double farthest_ = 0, radius_ = 0;
 };
 
 }  // namespace touchmark::grid

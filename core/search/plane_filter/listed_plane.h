@@ -13,8 +13,8 @@ namespace touchmark {
 
 /// Puts triangle i of a list behind the plane across the offset that was found from it, whose error is
 /// bounded. Its bound is then about `point`, from where the offset need not be: a bound that were moved there
-/// in single precision would be off by a part of the move. `scale` is the frame's. Returns false, and changes nothing,
-/// where the offset is too short to have a direction.
+/// in single precision would be off by a part of the move. `scale` is the frame's. Returns false, and changes
+/// nothing, where the offset is too short to have a direction.
 template <class List>
 bool set_plane_across(List& list, std::uint32_t i, const PreparedTriangle& triangle, const Vec3& point,
                       const Offset& found, double error, double scale) noexcept {

@@ -40,7 +40,7 @@ TEST_F(LazyGroups, AreMadeWithBoundedWorkInAQuery) {
                         of_whole = session_of_whole.work.total() - before_of_whole;
     most = std::max(most, work - std::min(work, of_whole));
   }
-  EXPECT_LE(most, grid::DirectGrid::max_lazy_work);
+  EXPECT_LE(most, GridGroup::max_lazy_work);
 }
 
 // But for cells of another size: what their parents know decides how fine they are.

@@ -1,0 +1,37 @@
+#include "core/point_queries/near_leaves.h"
+#include "core/point_queries/queries.h"
+
+namespace touchmark::queries {
+namespace {
+
+/// The queries as ask_again has them.
+struct Asked {
+  const Surface& surface;
+
+  void touches(const Probe& probe, PointMemory& memory, Work& work) const noexcept {
+    queries::touches(surface, probe, memory, work);
+  }
+  void nearest(const Vec3& center, double reach, PointMemory& memory, Work& work) const noexcept {
+    queries::nearest(surface, center, reach, memory, work);
+  }
+  void first_hit(const Sweep& sweep, PointMemory& memory, Work& work) const noexcept {
+    queries::first_hit(surface, sweep, memory, work);
+  }
+};
+
+}  // namespace
+
+void prepare(const Surface& surface, const LastQuestion& question, PointMemory& memory, Work& work) noexcept {
+  const WideBvh& bvh = surface.bvh;
+  if (memory.epoch != bvh.epoch() || is_clear(bvh, memory.center, question.reach, memory)) return;
+  const Vec3 move = is_slow(bvh, memory.move) ? memory.move : Vec3(Vec3::Zero());
+  if (question.query != LastQuestion::Query::touches && memory.is_near()) refill_ahead(bvh, memory, work);
+  const Vec3 kept = memory.move, free_center = memory.free_center;
+  const double free_radius = memory.free_radius;
+  ask_again(Asked{surface}, question, memory.center + move, move, memory, work);
+  memory.move = kept;
+  memory.free_center = free_center;
+  memory.free_radius = free_radius;
+}
+
+}  // namespace touchmark::queries
