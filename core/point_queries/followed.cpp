@@ -47,7 +47,7 @@ std::optional<Contact> nearest(const Surface& surface, const Vec3& center, doubl
     double farthest = std::min(reach, sampled_distance(bvh, point));
     if (visitor.candidates.found()) farthest = std::min(farthest, distance_of_best(visitor));
     if (!followed.backoff.waits()) {
-      is_covered = list_anew(bvh, center, farthest + error, followed, visitor.work) &&
+      is_covered = list_anew(bvh, center, farthest + error, followed, any_work, visitor.work) &&
                    search_listed(bvh, reach, error, followed, visitor);
       is_covered ? followed.backoff.paid() : followed.backoff.failed();
     }

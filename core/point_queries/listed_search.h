@@ -89,9 +89,9 @@ bool search_listed(const WideBvh& bvh, double reach, double error, FollowedPoint
 }
 
 /// Lists what is near the point, or near where it goes, as far as `farthest` and a margin. Returns false
-/// where that is too much.
+/// where that is too much, or more work than the budget.
 bool list_anew(const WideBvh& bvh, const Vec3& center, double farthest, FollowedPoint& followed,
-               Work& work) noexcept {
+               std::uint64_t budget, Work& work) noexcept {
   const double margin = double{followed.margin} * bvh.mean_leaf_radius();
   Vec3 about = center;
   double ahead = 0;
@@ -107,8 +107,8 @@ bool list_anew(const WideBvh& bvh, const Vec3& center, double farthest, Followed
   if (!bvh.can_search(point)) return false;
   const double limit = farthest + ahead + margin;
   GatheredList found;
-  const bool is_listed =
-      bvh::list_near(bvh, point, bvh.frame().limit(limit * limit), max_refill_work(bvh), found, work);
+  const bool is_listed = bvh::list_near(bvh, point, bvh.frame().limit(limit * limit),
+                                        std::min(budget, max_refill_work(bvh)), found, work);
   constexpr std::uint32_t few = 12, many = 24;
   if (!is_listed || found.count > many)
     followed.margin = std::max(0.5F * followed.margin, 0.05F);

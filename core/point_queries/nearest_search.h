@@ -113,14 +113,14 @@ bool is_slow(const WideBvh& bvh, const Vec3& move) noexcept {
 /// Lists the triangles around a slow point for the next ticks, if the last list answered many. `farthest`
 /// bounds the distance. Returns false where there is no list.
 [[gnu::noinline]] bool list_for_next(const WideBvh& bvh, const Vec3& center, double farthest,
-                                     PointMemory& memory, Work& work) noexcept {
+                                     PointMemory& memory, std::uint64_t budget, Work& work) noexcept {
   constexpr std::uint32_t answers_that_pay = 8;
   bvh::FollowedPoint& around = memory.around;
   if (around.backoff.waits()) return false;
   const bool paid = around.epoch != bvh.epoch() || around.answered >= answers_that_pay;
   around.answered = answers_that_pay;
   Work spent;
-  const bool is_listed = paid && list_anew(bvh, center, farthest, around, spent);
+  const bool is_listed = paid && list_anew(bvh, center, farthest, around, budget, spent);
   work += spent;
   if (!is_listed) {
     around.backoff.failed();
@@ -133,9 +133,9 @@ bool is_slow(const WideBvh& bvh, const Vec3& move) noexcept {
 
 /// Lists what is around the triangle that a search for a slow point has found, and keeps it.
 [[gnu::noinline]] void keep_found(const WideBvh& bvh, double farthest, PointMemory& memory,
-                                  Work& work) noexcept {
+                                  std::uint64_t budget, Work& work) noexcept {
   bvh::FollowedPoint& around = memory.around;
-  if (!list_for_next(bvh, memory.center, farthest, memory, work)) return;
+  if (!list_for_next(bvh, memory.center, farthest, memory, budget, work)) return;
   const std::uint32_t* const first = around.list.slot;
   const std::uint32_t* const place = std::find(first, first + around.list.count, memory.slot);
   around.nearest = static_cast<std::uint32_t>(place - first);
@@ -150,6 +150,7 @@ struct ContactEnds {
   double reach;
   PointMemory& memory;
   Work& work;
+  std::uint64_t budget;
   const Exhausted& exhausted;
 
   static constexpr bool names_all = false;
@@ -159,7 +160,8 @@ struct ContactEnds {
   }
   [[gnu::always_inline]] std::optional<Contact> found(const NearestVisitor& visitor, double error,
                                                       double distance) const noexcept {
-    if (is_slow(surface.bvh, memory.move)) keep_found(surface.bvh, distance + error, memory, work);
+    if (is_slow(surface.bvh, memory.move))
+      keep_found(surface.bvh, distance + error, memory, remaining(budget, visitor.work.total()), work);
     return contact_found(surface, visitor, reach, error, distance, work);
   }
 };
@@ -170,20 +172,22 @@ template <class Kind, class Exhausted>
                                                                       double reach, PointMemory& memory,
                                                                       Work& work, std::uint64_t budget,
                                                                       const Exhausted& exhausted) noexcept {
-  return search_nearest(surface, center, reach, memory, work, budget,
-                        ContactEnds<Kind, Exhausted>{surface, center, reach, memory, work, exhausted});
+  return search_nearest(
+      surface, center, reach, memory, work, budget,
+      ContactEnds<Kind, Exhausted>{surface, center, reach, memory, work, budget, exhausted});
 }
 
 /// Looks at those listed, and lists them anew where they are not all that can be nearest. Returns false where
 /// that does not tell.
 bool search_around(const WideBvh& bvh, double reach, double error, NearestVisitor& visitor,
-                   PointMemory& memory) noexcept {
+                   PointMemory& memory, std::uint64_t budget) noexcept {
   bvh::FollowedPoint& around = memory.around;
   if (search_listed(bvh, reach, error, around, visitor)) return true;
   if (!visitor.candidates.found()) return false;
   const double farthest = std::sqrt(visitor.candidates.best().squared_distance) + error;
   const Vec3& center = visitor.center;
-  return is_slow(bvh, center - memory.center) && list_for_next(bvh, center, farthest, memory, visitor.work) &&
+  return is_slow(bvh, center - memory.center) &&
+         list_for_next(bvh, center, farthest, memory, budget, visitor.work) &&
          search_listed(bvh, reach, error, around, visitor);
 }
 
@@ -198,11 +202,12 @@ template <class Kind, class Exhausted>
   const double error = bvh.frame().kernel_error(point.plane_error);
   NearestVisitor visitor(bvh.parts(), bvh.frame(), center,
                          bvh.frame().limit((reach + error) * (reach + error)), error);
-  const bool is_told = bvh.can_search(point) && search_around(bvh, reach, error, visitor, memory);
+  const bool is_told = bvh.can_search(point) && search_around(bvh, reach, error, visitor, memory, budget);
   work += visitor.work;
   if (!is_told) {
     memory.is_kept = false;
-    return nearest_searched(surface, center, reach, memory, work, budget, exhausted);
+    const std::uint64_t left = remaining(budget, visitor.work.total());
+    return nearest_searched(surface, center, reach, memory, work, left, exhausted);
   }
   ++memory.around.answered;
   keep_nearest(bvh, memory);

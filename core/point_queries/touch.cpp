@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "core/bvh/search.h"
 #include "core/float_limits.h"
@@ -42,7 +43,8 @@ struct TouchVisitor {
   double least = std::numeric_limits<double>::infinity();  ///< distance of the one kept, else of those shown
   std::uint32_t kept_at = nowhere;
   std::uint32_t open_count = 0;
-  std::array<std::uint32_t, 16> open;  ///< the first of those that are left open
+  std::array<std::uint32_t, 16> open;     ///< slots that doubles leave open, not decided yet
+  std::optional<WithinRadius> is_within;  ///< what deciding these has told of the others
 
   bool accepts(std::uint32_t) const noexcept { return kept_at == nowhere; }
   void update(std::uint32_t at, const Offset& found) noexcept {
@@ -53,30 +55,31 @@ struct TouchVisitor {
     if (excess <= open_up_to) leave_open(at);
   }
   void update_within(std::uint32_t at) noexcept { keep(at, radius); }
-  bool leaves_too_many_open() const noexcept { return kept_at == nowhere && open_count > open.size(); }
   void keep(std::uint32_t at, double distance) noexcept {
     kept_at = at;
     least = distance;
     limit = -1;  // nothing is within it: the search ends
   }
 
+  /// Keeps the first of those left open that is within the radius, if there is one.
+  [[gnu::cold, gnu::noinline]] void decide_open() noexcept {
+    if (!is_within) is_within.emplace(center, radius, open_up_to);
+    for (std::size_t i = 0; i < open_count && kept_at == nowhere; ++i) {
+      const PreparedTriangle& triangle = tree.triangles[open[i]];
+      const double distance = std::sqrt(squared_distance(triangle, center));
+      if ((*is_within)(triangle, distance, work.exact_decisions)) keep(open[i], distance);
+    }
+    open_count = 0;
+  }
+
  private:
+  /// Decides before there is no more room: a point on the border of very many then ends at the first that
+  /// touches.
   void leave_open(std::uint32_t at) noexcept {
-    if (open_count < open.size()) open[open_count] = at;
-    ++open_count;
+    open[open_count++] = at;
+    if (open_count == open.size()) decide_open();
   }
 };
-
-/// Keeps the first of those that doubles left open which is within the radius, if there is one.
-[[gnu::cold, gnu::noinline]] void decide_open(TouchVisitor& visitor, double error, Work& work) noexcept {
-  WithinRadius is_within(visitor.center, visitor.radius, error);
-  const std::size_t count = std::min<std::size_t>(visitor.open_count, visitor.open.size());
-  for (std::size_t i = 0; i < count && visitor.kept_at == nowhere; ++i) {
-    const PreparedTriangle& triangle = visitor.tree.triangles[visitor.open[i]];
-    const double distance = std::sqrt(squared_distance(triangle, visitor.center));
-    if (is_within(triangle, distance, work.exact_decisions)) visitor.keep(visitor.open[i], distance);
-  }
-}
 
 /// True if something surely touches, by what was sampled. It may be another triangle than the one remembered,
 /// which later queries only start from.
@@ -115,7 +118,7 @@ struct TouchVisitor {
   }
   TouchVisitor visitor(bvh.parts(), center, radius, error, surface.certified);
   bvh::visit(bvh, memory.slot, visitor);
-  if (visitor.open_count > 0) decide_open(visitor, error, work);
+  if (visitor.open_count > 0) visitor.decide_open();
   work += visitor.work;
   if (visitor.kept_at == nowhere) return false;
   memory.remember(center, 0, visitor.least);
@@ -147,9 +150,9 @@ bool touches(const Surface& surface, const Probe& probe, PointMemory& memory, Wo
   visitor.limit = bvh.frame().limit((radius + error) * (radius + error));
   visitor.enough = bvh.frame().to_frame_rounded_down(radius - error);
   const float unseen = bvh::traverse(bvh, point, visitor, budget);
+  if (visitor.kept_at == nowhere && visitor.open_count > 0) visitor.decide_open();
   work += visitor.work;
-  if (visitor.kept_at == nowhere && visitor.open_count > 0) decide_open(visitor, error, work);
-  if (unseen == bvh::exhausted || visitor.leaves_too_many_open()) {
+  if (unseen == bvh::exhausted && visitor.kept_at == nowhere) {
     memory.forget_distance();
     return scan_of(bvh, surface.certified, work).touches(probe, work);
   }
