@@ -25,19 +25,18 @@ namespace {
 
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
-/// Shows the visitor the triangle in a slot, and what else can be nearest if the surface knows that. Returns
-/// what traverse does, or what `otherwise()` does.
+/// Shows the visitor all that can be nearest if the surface knows that of places near the triangle in a slot.
+/// Returns what traverse does, or what `otherwise()` does.
 template <class Kind, class Otherwise>
 [[gnu::always_inline]] inline float search_from(const Kind& surface, std::uint32_t slot,
                                                 const FilterPoint& point, NearestVisitor& visitor,
                                                 const Otherwise& otherwise) noexcept {
-  const WideBvh& bvh = surface.bvh;
-  bvh::visit(bvh, slot, visitor);
   if constexpr (requires { surface.all_near(slot, point); }) {
     ++visitor.work.cells;
     if (const std::span<const bvh::ChildRef> blocks = surface.all_near(slot, point); !blocks.empty())
-      return bvh::with_isa(bvh.simd(),
-                           [&](auto isa) { return isa.search_blocks(bvh.parts(), point, blocks, visitor); });
+      return bvh::with_isa(surface.bvh.simd(), [&](auto isa) {
+        return isa.search_blocks(surface.bvh.parts(), point, blocks, visitor);
+      });
   }
   return otherwise();
 }
@@ -69,6 +68,7 @@ template <class Kind, class Ends>
   visitor.names_all = Ends::names_all;
   float unseen = 0;
   if (near) {
+    bvh::visit(bvh, memory.slot, visitor);
     unseen = search_from(surface, memory.slot, point, visitor,
                          [&] { return search_near(bvh, point, visitor, memory, budget); });
   } else {
