@@ -144,9 +144,9 @@ class Limits(unittest.TestCase):
                                  r"than they may; the smallest is [0-9.e-]+\n$")
 
     def test_groups_that_are_left_out_are_said(self):
-        ended = run(*QUERY, "grid-group:bytes_per_triangle=250")
+        ended = run(*QUERY, "grid-group:bytes_per_triangle=210")
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertRegex(ended.stderr, r"within 250 bytes a triangle [0-9]+ of 5120 have a group")
+        self.assertRegex(ended.stderr, r"within 210 bytes a triangle [0-9]+ of 5120 have a group")
 
     def test_what_fits_is_built_without_a_word(self):
         for detector in ("grid-group", "grid-group:cell=2%", "grid-group:lookup=scan,cell=2%", "sphere-cluster"):
