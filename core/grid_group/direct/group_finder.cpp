@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "core/bvh/search.h"
+#include "core/bvh/traversal.h"
 #include "core/search/linear_scan.h"
 
 namespace touchmark::grid {
