@@ -17,7 +17,7 @@
 
 #include "bench/contestants/contestant_of.h"
 #include "core/brute_force/brute_force.h"
-#include "core/grid_group/grid_group.h"
+#include "core/sphere_cluster/sphere_cluster.h"
 
 namespace touchmark::bench::workers {
 namespace {
@@ -207,11 +207,11 @@ contestants::ContestantInfo honest() {
 }
 
 contestants::ContestantInfo makes_later() {
-  contestants::ContestantInfo info = contestant<GridGroup>("makes-later");
+  contestants::ContestantInfo info = contestant<SphereCluster>("makes-later");
   info.build = [](const TriangleMesh& mesh,
                   const contestants::OptionValues&) -> std::unique_ptr<contestants::Contestant> {
-    return std::make_unique<contestants::ContestantOf<GridGroup>>(
-        GridGroup::build(mesh, {.construction = GridGroup::Construction::lazy}));
+    return std::make_unique<contestants::ContestantOf<SphereCluster>>(
+        SphereCluster::build(mesh, {.construction = SphereCluster::Construction::lazy}));
   };
   return info;
 }
