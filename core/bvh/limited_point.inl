@@ -1,6 +1,6 @@
 // What comes within the limit of one of several points (limited_point.h), included at the end of traversal.inl.
 
-/// Writes those of the listed leaves that may, and returns how many.
+/// Writes the listed leaves that may come within a limit, and returns how many they are.
 static std::size_t leaves_within(const Parts& tree, const LeafList& list, std::span<const LimitedPoint> points,
                                  ChildRef* left) noexcept {
   std::size_t count = 0;
@@ -18,7 +18,7 @@ static std::size_t leaves_within(const Parts& tree, const LeafList& list, std::s
   return count;
 }
 
-/// May a triangle of the block?
+/// True unless no triangle of the block comes within a limit.
 static bool comes_within(const Parts& tree, ChildRef block, std::span<const LimitedPoint> points) noexcept {
   const TriangleBlock& planes = tree.blocks[block.index()];
   Wide unseen{};

@@ -408,7 +408,7 @@ template <class Visitor>
 /// Searches as traverse does when every triangle within the visitor's limit is in one of the blocks.
 template <class Visitor>
 static float search_blocks(const Parts& tree, const FilterPoint& point, std::span<const ChildRef> blocks,
-                    Visitor& visitor) noexcept {
+                           Visitor& visitor) noexcept {
   const Point p = broadcast(point);
   Wide unseen = Wide{} + farthest;
   for (const ChildRef ref : blocks) visit_block(tree, ref.index(), p, unseen, visitor);

@@ -34,7 +34,7 @@ class GridGroup {
   };
   /// What `build` may be told.
   struct Options {
-    double cell = 0;                  ///< edge of the smallest cell, mesh units; 0: choose
+    double cell = 0;                  ///< edge of a cell, mesh units; 0: choose
     double bytes_per_triangle = 400;  ///< what the structure may take, mesh copy included (200 at least)
     bool certified = true;            ///< false: as doubles have it, to measure what certainty costs
     Construction construction = Construction::whole;
@@ -99,9 +99,9 @@ class GridGroup {
 
   /// Triangles that have a group.
   std::size_t groups() const noexcept { return surface_.groups.count(); }
-  /// Edge of the smallest cell, in mesh units; 0 where the mesh's extent admits no cells.
+  /// Edge of a cell, in mesh units; 0 where the mesh's extent admits no cells.
   double cell() const noexcept { return surface_.cells.edge(); }
-  /// Were the cells made larger than asked, or fewer groups than wanted, to keep within memory?
+  /// True if cells are larger than asked for, or groups are left out, to keep within memory.
   bool coarsened() const noexcept { return surface_.cells.coarsened() || surface_.groups.ran_out(); }
 
  private:

@@ -56,7 +56,7 @@ Groups make(const WideBvh& bvh, const GroupOptions& options, const KeptOf& kept)
     std::vector<Piece> wave(pieces_a_wave);
     in_ranges(size, slots_a_piece, options.threads, [&](std::size_t first, std::size_t end) {
       GroupFinder finder(bvh, margin, any_work);
-      // Where slots have none, the next probably have none either.
+      // Slots next to those without groups probably have none either.
       Backoff<std::uint16_t, 4 * bvh::width> backoff;
       for (auto slot = static_cast<std::uint32_t>(begin + first); slot < begin + end; ++slot) {
         FoundGroup found;
@@ -74,7 +74,7 @@ Groups make(const WideBvh& bvh, const GroupOptions& options, const KeptOf& kept)
   return groups;
 }
 
-/// Can what moved have been in the group of this slot, or can it be now?
+/// True if what moved may have been in the group of this slot, or may be in it now.
 bool changes(const WideBvh& bvh, std::uint32_t slot, std::span<const Aabb> moved) noexcept {
   const FaceFrame face_frame(bvh.parts().triangles[slot], bvh.frame());
   double radius = 0;

@@ -5,7 +5,7 @@
 namespace touchmark::grid {
 
 Groups::Groups(std::size_t slots, std::size_t max_bytes, bool lazy) : lazy_(lazy) {
-  // Where they are made lazily, room for a third more than most meshes' groups have in the mean.
+  // Lazily built groups get room for a third more blocks than groups of most meshes have in the mean.
   const std::size_t blocks_a_group = lazy_ ? 12 : max_blocks;
   if (max_bytes < slots * (sizeof(Group) + sizeof(bvh::ChildRef))) return;
   groups_.resize(slots);

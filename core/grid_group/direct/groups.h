@@ -48,7 +48,7 @@ struct FoundGroup {
   float height = -1, margin = -1;
 };
 
-/// Groups by slot of the hierarchy, all of them built at once or each lazily: whoever claims one puts it.
+/// The groups, by slot of the hierarchy. All are built at once, or each by the thread that claims it.
 class Groups {
  public:
   /// A group has more than many blocks only where a lower prism would not help.
@@ -83,7 +83,7 @@ class Groups {
   void shrink();
 
   bool empty() const noexcept { return groups_.empty(); }
-  /// Was there no room for some?
+  /// True if there was no room for some groups.
   bool ran_out() const noexcept { return groups_.empty() || taken_.load() > blocks_.size(); }
   /// Returns how many groups have blocks.
   std::size_t count() const noexcept { return count_.load(); }

@@ -118,7 +118,6 @@ TEST(KeptNearest, SeesThatSomethingElseIsNearerAfterItMoved) {
   }
 }
 
-/// The same surface, moved: what was kept of before is not believed.
 // A mesh of so few triangles is listed whole, and its list goes on however far the point leaps. A plane that
 // was found far from where the list was made once passed over a corner that the point then came to.
 TEST(KeptNearest, ComesBackToACornerAfterLeapsAsLongAsTheMesh) {
@@ -143,6 +142,7 @@ TEST(KeptNearest, ComesBackToACornerAfterLeapsAsLongAsTheMesh) {
   }
 }
 
+// What was kept of a surface is not believed after the surface has moved.
 TEST(KeptNearest, IsForgottenWhenTheMeshMoves) {
   const TriangleMesh before = test::bumpy_sphere(30, 0.02, 4);
   const TriangleMesh after = before.transformed(1, Vec3(0.01, 0, 0));
