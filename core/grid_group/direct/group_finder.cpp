@@ -11,14 +11,14 @@ namespace {
 
 /// Beyond the sides by this part of the inradius: more keeps a sliding probe longer with one group, and makes
 /// the groups larger.
-constexpr double growth = 0.3;
+constexpr double growth_of_sides = 0.3;
 /// Over and under the triangle by this part of its size at first, and by less where the groups would be too
 /// large.
 constexpr double first_height = 1.0, min_height = 0.2, shrinking = 0.6;
 
 // In a ball about the incenter the grown triangle is within 1.3 radii, its size below 1.65, so the highest
 // prism within 2.1; and no point of that is farther than 2.9 from a witness on the triangle.
-static_assert(growth <= 0.3 && first_height <= 1 && GroupFinder::reach_in_radii >= 2.1 + 2.9);
+static_assert(growth_of_sides <= 0.3 && first_height <= 1 && GroupFinder::reach_in_radii >= 2.1 + 2.9);
 
 }  // namespace
 
@@ -28,11 +28,11 @@ FoundGroup GroupFinder::find(std::uint32_t slot) noexcept {
   const FaceFrame face_frame(bvh_.parts().triangles[slot], frame);
   // A margin that single precision does not see would cover no point.
   const bool visible =
-      growth * face_frame.inradius > static_cast<double>(frame.plane_error(face_frame.incenter));
+      growth_of_sides * face_frame.inradius > static_cast<double>(frame.plane_error(face_frame.incenter));
   if (face_frame.normal.isZero(0) || !visible) return {};
   for (double height = std::min(first_height, height_ / shrinking);; height *= shrinking) {
     height_ = height;
-    const Prism prism(face_frame, growth, height * face_frame.size, exclusion_margin_, frame);
+    const Prism prism(face_frame, growth_of_sides, height * face_frame.size, exclusion_margin_, frame);
     const bool is_listed =
         list_around(face_frame.incenter, prism.radius() + prism.farthest() + exclusion_margin_);
     const bool is_last = shrinking * height < min_height;
@@ -40,7 +40,7 @@ FoundGroup GroupFinder::find(std::uint32_t slot) noexcept {
       // Rounded down, so that single precision covers no point outside.
       constexpr double down = 1 - 0x1p-22;
       return {std::span(blocks_).first(block_count_), static_cast<float>(height * face_frame.size * down),
-              static_cast<float>(growth * face_frame.inradius * down)};
+              static_cast<float>(growth_of_sides * face_frame.inradius * down)};
     }
     if (is_last) return {};
   }
