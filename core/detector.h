@@ -67,6 +67,45 @@ struct Work {
   }
 };
 
+/// Work, and how much it may come to: see the concept KeepsToLimit.
+struct LimitedWork : Work {
+  static constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+  /// One exact decision takes about as long as this many looks.
+  static constexpr std::uint64_t exact_weight = 64;
+
+  std::uint64_t limit = unlimited;  ///< of `spent`
+  bool undecided = false;           ///< a query ended at the limit; who sets that clears this
+
+  std::uint64_t spent() const noexcept { return total() + exact_weight * exact_decisions; }
+  std::uint64_t left() const noexcept { return limit == unlimited ? unlimited : left_of_limit(); }
+  /// Is this more than is left? Then the query is undecided.
+  bool exceeds_limit(std::uint64_t needed = 1) noexcept {
+    return limit != unlimited && exceeds_given_limit(needed);
+  }
+  /// Returns one that has what is left.
+  LimitedWork rest() const noexcept {
+    LimitedWork result;
+    result.limit = left();
+    return result;
+  }
+  /// Adds what `rest` has come to.
+  void take(const LimitedWork& part) noexcept {
+    *this += part;
+    undecided = undecided || part.undecided;
+  }
+
+ private:
+  [[gnu::cold, gnu::noinline]] std::uint64_t left_of_limit() const noexcept {
+    const std::uint64_t so_far = spent();
+    return so_far < limit ? limit - so_far : 0;
+  }
+  [[gnu::cold, gnu::noinline]] bool exceeds_given_limit(std::uint64_t needed) noexcept {
+    if (left() >= needed) return false;
+    undecided = true;
+    return true;
+  }
+};
+
 // Version 14 takes `noexcept ->` apart.
 // clang-format off
 /// `D::build(mesh, options)` throws std::invalid_argument on options that make no sense, naming the offender.
@@ -78,7 +117,7 @@ concept Detector = std::movable<D> && requires(const TriangleMesh& mesh, const t
                                                const D& detector, typename D::Session& session) {
   requires std::default_initializable<typename D::Session>;
   { D::build(mesh, options) } -> std::same_as<D>;
-  { session.work } -> std::same_as<Work&>;
+  { session.work } -> std::convertible_to<Work&>;
   { detector.bytes() } noexcept -> std::same_as<std::size_t>;  // of the built structure, mesh copy included
   { detector.accuracy() } noexcept -> std::same_as<Accuracy>;
 };
@@ -133,6 +172,14 @@ concept AnswersNearestContacts = AnswersContacts<D> &&
 template <class D>
 concept Prepares = Detector<D> && requires(const D& detector, typename D::Session& session) {
   { detector.prepare(session) } noexcept -> std::same_as<void>;
+};
+
+/// A query ends soon after session.work.spent() comes to session.work.limit, and sets `undecided` where that
+/// leaves it open. Then `touches` says true, `first_hit` a touch at the start whose contact tells nothing, and
+/// `contacts` what was found by then. What is remembered stays true. `nearest` keeps to no limit.
+template <class D>
+concept KeepsToLimit = Detector<D> && D::keeps_to_limit && requires(typename D::Session& session) {
+  { session.work } -> std::same_as<LimitedWork&>;
 };
 
 /// Supports lazy construction: the first queries build what they need. Those cost more; answers do not

@@ -30,6 +30,7 @@ class HapticPoint {
     if (!detector_->detector().accuracy().decides_exactly)
       throw std::invalid_argument("the detector does not decide exactly, so the proxy could cross");
     session_ = detector_->detector().begin_session();
+    detector_->detector().expect_limited(coupling_.max_work, *session_);
     updates_ = detector_->updates();
     proxy_ =
         std::make_unique<Proxy<NamedDetector>>(detector_->detector(), coupling_, &detector_->locked_mesh());
@@ -84,7 +85,8 @@ py::tuple step(HapticPoint& point, const Array<double>& goal) {
   py::array_t<double> normals(std::vector<py::ssize_t>{static_cast<py::ssize_t>(now.contacts), 3});
   for (std::size_t i = 0; i < now.contacts; ++i)
     for (int k = 0; k < 3; ++k) normals.mutable_at(static_cast<py::ssize_t>(i), k) = now.normals[i][k];
-  return py::make_tuple(array_of(now.position), array_of(now.force), normals, static_cast<int>(now.status));
+  return py::make_tuple(array_of(now.position), array_of(now.force), normals, static_cast<int>(now.status),
+                        now.unfinished);
 }
 
 }  // namespace
@@ -92,13 +94,14 @@ py::tuple step(HapticPoint& point, const Array<double>& goal) {
 void define_proxy(py::module_& module) {
   py::class_<HapticPoint>(module, "Proxy")
       .def(py::init([](std::shared_ptr<BatchDetector> detector, double radius, double stiffness,
-                       double static_friction, double dynamic_friction, double damping, double tick_s) {
+                       double static_friction, double dynamic_friction, double damping, double tick_s,
+                       std::uint64_t max_work) {
              return std::make_unique<HapticPoint>(
-                 std::move(detector),
-                 Coupling{radius, stiffness, static_friction, dynamic_friction, damping, tick_s});
+                 std::move(detector), Coupling{radius, stiffness, static_friction, dynamic_friction, damping,
+                                               tick_s, 0, max_work});
            }),
            "detector"_a, "radius"_a, "stiffness"_a, "static_friction"_a, "dynamic_friction"_a, "damping"_a,
-           "tick_s"_a)
+           "tick_s"_a, "max_work"_a)
       .def(
           "place",
           [](HapticPoint& point, const Array<double>& position) {

@@ -63,6 +63,8 @@ class Contestant {
   /// A fresh session, its work counters at zero.
   virtual void forget() = 0;
   virtual Work work() const noexcept = 0;
+  /// Returns the session's, which may be limited; null for one that does not keep to it.
+  virtual LimitedWork* limited_work() noexcept { return nullptr; }
 
   /// The answer to each step of the range and the total work it took; both spans have the range's size.
   virtual void answer(const workload::QueryTrace& trace, workload::StepRange range,

@@ -129,6 +129,10 @@ class ContestantOf final : public Contestant {
     if constexpr (Updates<D>) detector_->update(mesh);
   }
   Work work() const noexcept override { return session_->work; }
+  LimitedWork* limited_work() noexcept override {
+    if constexpr (KeepsToLimit<D>) return &session_->work;
+    return nullptr;
+  }
 
   void answer(const workload::QueryTrace& trace, workload::StepRange range,
               std::span<workload::Answer> answers, std::span<std::uint64_t> work) noexcept override {

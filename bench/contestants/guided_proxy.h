@@ -31,6 +31,7 @@ class AskedContestant {
   }
   void update(const TriangleMesh& mesh) { contestant_->update(mesh); }
   Work work() const { return contestant_->work(); }
+  LimitedWork* limited_work(Session&) const noexcept { return contestant_->limited_work(); }
 
  private:
   std::unique_ptr<Contestant> contestant_;
@@ -50,6 +51,11 @@ class GuidedProxy {
 
   void place(const Vec3& position) noexcept { proxy_.place(position); }
   const ProxyState& step(const Vec3& goal) noexcept { return proxy_.step(goal, session_); }
+  /// Returns false where the contestant keeps to no limit.
+  bool limit_work(std::uint64_t max_work) noexcept {
+    proxy_.limit_work(max_work);
+    return detector_.limited_work(session_) != nullptr;
+  }
   void update(const TriangleMesh& mesh) {
     detector_.update(mesh);
     mesh_ = mesh;

@@ -36,6 +36,10 @@ class CertifiedOverBodies final : public ProxyMethod {
     move_bodies(places);
     proxy_.surface_moved();
   }
+  bool limit_work(std::uint64_t max_work) override {
+    proxy_.limit_work(max_work);
+    return KeepsToLimit<Scene<D>>;
+  }
   bool ask_nearest(const Vec3& goal) override {
     static_cast<void>(
         scene_.nearest({goal, 0}, std::numeric_limits<double>::infinity(), session_of_bare_query_));

@@ -59,7 +59,8 @@ const std::vector<MethodInfo>& list() {
        &engine_sweep_method},
       {"certified",
        "ours: no piece of the way is gone before its sweep is exactly free",
-       {},
+       {{"max_work", "0", "bounds what a tick looks at; random: another bound each tick; 0: none does", true,
+         "random"}},
        "",
        false,
        true,
@@ -92,9 +93,10 @@ MethodSpec method_named(const std::string& text) {
   }
   for (const MethodOption& option : spec.info->options) {
     const std::string& value = values.at(std::string(option.key));
-    if (option.is_number && !(support::parse_number(value).value_or(-1) >= 0))
+    if (option.is_number && value != option.word && !(support::parse_number(value).value_or(-1) >= 0))
       throw std::invalid_argument(
-          fmt::format("method {}: {}=\"{}\" is not a number of 0 or more", name, option.key, value));
+          fmt::format("method {}: {}=\"{}\" is not a number of 0 or more{}", name, option.key, value,
+                      option.word.empty() ? "" : fmt::format(", or {}", option.word)));
   }
   spec.values = MethodOptions(std::move(values));
   return spec;

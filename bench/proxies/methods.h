@@ -43,6 +43,7 @@ using MakeMethod = std::unique_ptr<ProxyMethod> (*)(const MethodRequest& request
 struct MethodOption {
   std::string_view key, default_value, meaning;
   bool is_number = false;
+  std::string_view word = {};  ///< what stands for no number
 };
 
 struct MethodInfo {

@@ -28,6 +28,7 @@ struct Step {
   std::size_t contacts = 0;
   Vec3 force = Vec3::Zero();  ///< N, on the device
   Status status = Status::free;
+  bool unfinished = false;  ///< the method's limit of work ended it
 
   void begin(const Vec3& from) {
     way.assign(1, from);
@@ -62,6 +63,10 @@ class ProxyMethod {
   /// Asks a second detector of its kind for the nearest contact at the goal, however far: the bare query that
   /// its tick is compared with. Returns false where it has no detector.
   virtual bool ask_nearest(const Vec3& goal) { return static_cast<void>(goal), false; }
+  /// Lets the next steps look at no more than so much; 0: at all they want. Returns false where it cannot.
+  virtual bool limit_work(std::uint64_t max_work) { return static_cast<void>(max_work), false; }
+  /// Returns how far it is, after the step to this goal, from where it would be without a limit of work.
+  virtual double lag(const Vec3& goal) { return static_cast<void>(goal), 0; }
   /// Triangles, boxes and what else was looked at since it was made.
   virtual std::uint64_t work() const = 0;
 };

@@ -50,6 +50,7 @@ void Judge::see(const WayOracle& oracle) {
 
 void Judge::tick(std::size_t index, const Step& step) {
   ++tally_.ticks;
+  if (step.unfinished) ++tally_.unfinished;
   const Vec3& goal = course_.goals[index];
   if (step.status == Status::no_answer || !step.position().allFinite()) {
     ++tally_.unanswered;
@@ -73,6 +74,7 @@ void Judge::tick(std::size_t index, const Step& step) {
 /// While a crossing leaves it open where the proxy is, nothing is said.
 void Judge::judge_end(const Step& step, const Vec3& goal) {
   const Vec3& at = step.position();
+  if (step.unfinished) return;
   if (at == goal || excused_ || crossed_since_) return;
   const double radius = course_.radius;
   if (!oracle_->is_within(position_, goal, radius)) ++tally_.missed_goals;

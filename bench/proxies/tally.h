@@ -32,6 +32,8 @@ struct Tally {
   double max_force_jump = 0;  ///< N, by how much a tick's change of force exceeded stiffness times motion
   double max_energy = 0;      ///< J, the most that the device got over one closed turn of the goal; 0: none
   std::uint64_t work = 0;
+  std::uint64_t unfinished = 0;  ///< ticks that their limit of work ended, which are not judged by their ends
+  double max_lag = 0;            ///< m, the farthest from where the proxy would be without that limit
   measurement::LatencyHistogram times;
   measurement::LatencyHistogram
       bare_times;  ///< what the bare query takes at the same goals, between the ticks

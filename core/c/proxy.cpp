@@ -23,7 +23,9 @@ struct touchmark_proxy {
       : held(std::move(detector)),
         memory(held->detector->begin_session()),
         updates(held->updates),
-        proxy(*held->detector, coupling, held->mesh.get()) {}
+        proxy(*held->detector, coupling, held->mesh.get()) {
+    held->detector->expect_limited(coupling.max_work, *memory);
+  }
 
   std::shared_ptr<const Held> held;
   std::unique_ptr<NamedDetector::Session> memory;
@@ -41,7 +43,8 @@ Coupling coupling_of(const touchmark_coupling* from) {
                           .static_friction = from->static_friction,
                           .dynamic_friction = from->dynamic_friction,
                           .damping = from->damping,
-                          .tick_s = from->tick_s};
+                          .tick_s = from->tick_s,
+                          .max_work = from->max_work};
   expect_usable(coupling);
   return coupling;
 }
@@ -51,6 +54,7 @@ void store_state(const ProxyState& from, touchmark_proxy_state& to) noexcept {
   store(from.force, to.force);
   to.status = static_cast<std::int32_t>(from.status);
   to.contacts = static_cast<std::uint32_t>(from.contacts);
+  to.flags = from.unfinished ? TOUCHMARK_PROXY_UNFINISHED : 0;
   for (std::size_t i = 0; i < from.contacts; ++i) store(from.normals[i], to.normals[i]);
 }
 
@@ -64,8 +68,8 @@ static_assert(static_cast<int>(ProxyStatus::free) == TOUCHMARK_PROXY_FREE &&
 int touchmark_coupling_default(touchmark_coupling* coupling) {
   if (coupling == nullptr) return fail_for_null(__func__, "coupling");
   constexpr Coupling usual;
-  *coupling = {usual.radius,           usual.stiffness, usual.static_friction,
-               usual.dynamic_friction, usual.damping,   usual.tick_s};
+  *coupling = {usual.radius,  usual.stiffness, usual.static_friction, usual.dynamic_friction,
+               usual.damping, usual.tick_s,    usual.max_work};
   return TOUCHMARK_YES;
 }
 

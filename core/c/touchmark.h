@@ -77,6 +77,7 @@ typedef struct touchmark_coupling {
   double dynamic_friction; /**< coefficient, in motion; at most the static one */
   double damping;          ///< N s a mesh unit, against the goal's velocity while in contact
   double tick_s;           ///< seconds a tick of the servo loop, more than 0
+  uint64_t max_work;       /**< bounds what a step looks at, in boxes and triangles; docs/proxy.md */
 } touchmark_coupling;
 
 /// How a proxy is.
@@ -87,6 +88,9 @@ enum {
   TOUCHMARK_PROXY_UNANSWERED = 3  /**< the goal is no number; the proxy stays */
 };
 
+/// Flags of a step.
+enum { TOUCHMARK_PROXY_UNFINISHED = 1 /**< it ended at max_work, at a place that is as sure as any */ };
+
 /// What one tick of a proxy came to.
 typedef struct touchmark_proxy_state {
   double position[3];    ///< the proxy's
@@ -94,6 +98,7 @@ typedef struct touchmark_proxy_state {
   double normals[3][3];  ///< unit, out of the surface, a plane that holds it each
   int32_t status;        ///< one of TOUCHMARK_PROXY_...
   uint32_t contacts;     ///< how many planes hold it, 3 at most: so many of `normals` are set
+  uint64_t flags;        /**< TOUCHMARK_PROXY_UNFINISHED, or 0 */
 } touchmark_proxy_state;
 
 /// Returns "MAJOR.MINOR.PATCH" of the library that is linked.

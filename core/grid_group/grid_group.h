@@ -42,6 +42,7 @@ class GridGroup {
   };
   /// What one haptic point remembers between ticks.
   using Session = queries::Session;
+  static constexpr bool keeps_to_limit = true;
 
   /// Throws std::invalid_argument for a cell below 0 or not finite, a budget below 200, or too many threads.
   static void check(const Options& options);

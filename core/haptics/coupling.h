@@ -2,6 +2,8 @@
 /// forces in N; a stiffness is in N a mesh unit.
 #pragma once
 
+#include <cstdint>
+
 #include "core/probe.h"
 
 namespace touchmark {
@@ -15,6 +17,8 @@ struct Coupling {
   double damping = 0;           ///< N s a mesh unit, against the goal's velocity while in contact
   double tick_s = 0.001;        ///< seconds a tick of the servo loop
   double shading = 0;           ///< share, 0 to 1, of the way to the interpolated normal that the force turns
+  std::uint64_t max_work =
+      0;  ///< a step's, as LimitedWork::spent() counts it, for a detector that KeepsToLimit
 
   bool has_friction() const noexcept { return static_friction > 0 || dynamic_friction > 0; }
 };

@@ -15,6 +15,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -40,8 +41,8 @@ concept GuidesProxy = requires(const D& detector, const Probe& probe, const Swee
 };
 // clang-format on
 
-/// One proxy over one detector, which must outlive it. Steps take no memory, and each
-/// asks a bounded number of questions.
+/// One proxy over one detector, which must outlive it. Steps take no memory, and each asks a bounded number
+/// of questions, within Coupling::max_work where that is set: what is not known by then counts as touched.
 template <GuidesProxy D>
 class Proxy {
  public:
@@ -62,14 +63,36 @@ class Proxy {
   /// is until the next one.
   const ProxyState& step(const Vec3& goal, typename D::Session& session) noexcept {
     if (!motion_.begin(goal)) return motion_.state();
+    work_ = coupling().max_work > 0 ? limited_work(session) : nullptr;
+    if (work_ != nullptr) {
+      work_->limit = work_->spent() + coupling().max_work;
+      work_->undecided = false;
+    }
     if (choose_kept(session)) slide(session);
-    return motion_.end();
+    const bool is_unfinished = is_undecided();
+    if (work_ != nullptr) work_->limit = LimitedWork::unlimited;
+    return motion_.end(is_unfinished);
   }
+
+  /// Sets Coupling::max_work for the steps to come: a loop may spend what it has left.
+  void limit_work(std::uint64_t max_work) noexcept { motion_.limit_work(max_work); }
 
   const ProxyState& state() const noexcept { return motion_.state(); }
   const Coupling& coupling() const noexcept { return motion_.coupling(); }
 
  private:
+  /// Null where the detector keeps to no limit.
+  LimitedWork* limited_work(typename D::Session& session) const noexcept {
+    if constexpr (KeepsToLimit<D>)
+      return &session.work;
+    else if constexpr (requires { detector_->limited_work(session); })
+      return detector_->limited_work(session);
+    else
+      return nullptr;
+  }
+  /// Has a question of this step remained open?
+  bool is_undecided() const noexcept { return work_ != nullptr && work_->undecided; }
+
   bool touches(double distance, typename D::Session& session) const noexcept {
     return detector_->touches({motion_.position(), distance}, session);
   }
@@ -79,7 +102,8 @@ class Proxy {
   }
 
   /// Chooses the distance that this tick keeps: the radius, or where that is not free the largest of a few
-  /// shares of it that is. What the last tick kept is still free. Returns false on the surface itself.
+  /// shares of it that is. What the last tick kept is still free. Returns false on the surface itself, and
+  /// where none is known to be free.
   bool choose_kept(typename D::Session& session) noexcept {
     const double radius = motion_.coupling().radius;
     motion_.keep(radius);
@@ -90,7 +114,7 @@ class Proxy {
     } else {
       eighths = 8;
       while (touches(motion_.kept(), session)) {
-        if (--*eighths < 0 || !(motion_.kept() > 0)) return false;
+        if (is_undecided() || --*eighths < 0 || !(motion_.kept() > 0)) return false;
         motion_.keep(radius * *eighths / 8);
       }
     }
@@ -107,6 +131,7 @@ class Proxy {
         margin = 0;
         impact = first_hit(*target, session);
       }
+      if (is_undecided()) return;
       if (!impact) {
         motion_.go(*target);
         if (motion_.is_at_goal()) return;
@@ -138,6 +163,7 @@ class Proxy {
 
   const D* detector_;
   ProxyMotion motion_;
+  LimitedWork* work_ = nullptr;  ///< of the session of this step, where that is limited
 };
 
 }  // namespace touchmark

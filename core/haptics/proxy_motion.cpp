@@ -48,6 +48,7 @@ void ProxyMotion::surface_moved(const TriangleMesh* mesh) noexcept {
 bool ProxyMotion::begin(const Vec3& goal) noexcept {
   state_.way[0] = state_.position;
   state_.pieces = 0;
+  state_.unfinished = false;
   if (!goal.allFinite()) {
     state_.status = ProxyStatus::unanswered;
     state_.contacts = 0;
@@ -243,14 +244,16 @@ void ProxyMotion::note_contacts() noexcept {
   if (may_touch_) state_.status = ProxyStatus::stuck;
 }
 
-const ProxyState& ProxyMotion::end() noexcept {
+const ProxyState& ProxyMotion::end(bool is_unfinished) noexcept {
   if (state_.pieces > 0 && !is_at_goal() && !came_nearer()) {
     state_.position = state_.way[0];
     state_.pieces = 0;
     planes_.clear();
   }
   if (is_at_goal()) planes_.clear();
-  rests_ = state_.pieces == 0;
+  rests_ = state_.pieces == 0 && !is_unfinished;
+  if (is_unfinished) same_goal_ = 0;
+  state_.unfinished = is_unfinished;
   note_contacts();
   return state_;
 }

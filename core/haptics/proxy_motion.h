@@ -39,6 +39,8 @@ struct ProxyState {
   /// The straight pieces of the tick's way: from way[0], where it was, over each to `position`.
   std::array<Vec3, max_pieces + 1> way;
   std::size_t pieces = 0;
+  /// The step ended at Coupling::max_work, where it was by then. The next one goes on.
+  bool unfinished = false;
 };
 
 class ProxyMotion {
@@ -52,6 +54,7 @@ class ProxyMotion {
   const ProxyState& state() const noexcept { return state_; }
   const Vec3& position() const noexcept { return state_.position; }
   const Coupling& coupling() const noexcept { return coupling_; }
+  void limit_work(std::uint64_t max_work) noexcept { coupling_.max_work = max_work; }
   /// The distance that this tick keeps: more than that it stays off the surface.
   double kept() const noexcept { return kept_; }
   void keep(double distance) noexcept { kept_ = distance; }
@@ -89,8 +92,9 @@ class ProxyMotion {
   double look() const noexcept;
   /// Takes the planes of the contacts around the position, nearest first, for those before.
   void look_around(std::span<const Contact> contacts) noexcept;
-  /// Ends a tick. One that came no nearer to its goal is taken back.
-  const ProxyState& end() noexcept;
+  /// Ends a tick. One that came no nearer to its goal is taken back. One that could not ask all it wanted to
+  /// know is unfinished.
+  const ProxyState& end(bool is_unfinished) noexcept;
 
   static constexpr int max_retreats = 3;
   static constexpr std::size_t max_contacts = 16;  ///< the nearest of those around

@@ -34,6 +34,10 @@ class Named final : public NamedDetector {
                        std::span<Contact> into) const noexcept override {
     return detector_.contacts(probe, reach, own(session), into);
   }
+  LimitedWork* limited_work([[maybe_unused]] Session& session) const noexcept override {
+    if constexpr (KeepsToLimit<D>) return &own(session).work;
+    return nullptr;
+  }
   void prepare([[maybe_unused]] Session& session) const noexcept override {
     if constexpr (Prepares<D>) detector_.prepare(own(session));
   }
@@ -100,6 +104,12 @@ constexpr std::array<Maker, 5> makers{{{"brute-force", build_named<BruteForce::O
                                        {"auto", build_named<named::SphereClusterForm>}}};
 
 }  // namespace
+
+void NamedDetector::expect_limited(std::uint64_t max_work, Session& session) const {
+  if (max_work > 0 && limited_work(session) == nullptr)
+    throw std::invalid_argument("max_work is " + std::to_string(max_work) +
+                                ", but this detector keeps to no limit; sphere-cluster and grid-group do");
+}
 
 std::string_view NamedDetector::names() noexcept {
   return "brute-force, aabb-tree, grid-group, sphere-cluster";

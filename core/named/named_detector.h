@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -49,6 +50,10 @@ class NamedDetector {
   virtual std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept = 0;
   virtual std::size_t contacts(const Probe& probe, double reach, Session& session,
                                std::span<Contact> into) const noexcept = 0;
+  /// Returns the session's work, which may be limited; null where the detector keeps to no limit.
+  virtual LimitedWork* limited_work(Session& session) const noexcept = 0;
+  /// Throws std::invalid_argument where a proxy's work is to be limited and the detector keeps to no limit.
+  void expect_limited(std::uint64_t max_work, Session& session) const;
   /// Does nothing where the detector prepares nothing.
   virtual void prepare(Session& session) const noexcept = 0;
   virtual std::size_t bytes() const noexcept = 0;

@@ -49,6 +49,10 @@ inline std::uint64_t max_refill_work(const WideBvh& bvh) noexcept {
                    bvh::width * (bvh.parts().nodes.size() + bvh.parts().blocks.size()));
 }
 
+/// Is a look at every triangle more than what is left? Then the query ends undecided.
+inline bool must_end(const WideBvh& bvh, LimitedWork& work) noexcept {
+  return work.exceeds_limit(bvh.parts().triangles.size());
+}
 /// Returns a look at every triangle. All must be there for that.
 [[gnu::noinline, gnu::cold]] inline LinearScan scan_of(const WideBvh& bvh, bool certified,
                                                        Work& work) noexcept {

@@ -1,4 +1,5 @@
 // The triangles around a point, for a caller that keeps them.
+#include <algorithm>
 #include <limits>
 
 #include "core/bvh/search.h"
@@ -9,7 +10,7 @@
 namespace touchmark::queries {
 
 bool list_triangles(const Surface& surface, const Vec3& center, double radius, ListedTriangles& into,
-                    Work& work) noexcept {
+                    LimitedWork& work) noexcept {
   const WideBvh& bvh = surface.bvh;
   const FilterFrame& frame = bvh.frame();
   const FilterPoint point = frame.point(center);
@@ -21,7 +22,8 @@ bool list_triangles(const Surface& surface, const Vec3& center, double radius, L
   if (!(into.covered > limit)) into.covered = tight_sampled_clearance(bvh, point);
   if (into.covered > limit) return true;
   bvh::PlaneList<ListedTriangles::capacity> found;
-  if (!bvh::list_near(bvh, point, frame.limit(limit * limit), max_nearest_work(bvh), found, work))
+  if (!bvh::list_near(bvh, point, frame.limit(limit * limit), std::min(max_nearest_work(bvh), work.left()),
+                      found, work))
     return false;
   into.count = found.count;
   for (std::uint32_t i = 0; i < found.count; ++i) {

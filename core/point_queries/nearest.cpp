@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -51,14 +52,14 @@ bool close_triangles(const Surface& surface, const Vec3& center, double reach, d
 }
 
 WithinBudget nearest_within_budget(const Surface& surface, const Vec3& center, double reach,
-                                   PointMemory& memory, Work& work) noexcept {
+                                   PointMemory& memory, LimitedWork& work) noexcept {
   bool is_exhausted = false;
   const auto exhausted = [&]() -> std::optional<Contact> {
     is_exhausted = true;
     return std::nullopt;
   };
-  std::optional<Contact> contact =
-      nearest_of(surface, center, reach, memory, work, max_work(surface.bvh), exhausted);
+  std::optional<Contact> contact = nearest_of(surface, center, reach, memory, work,
+                                              std::min(max_work(surface.bvh), work.left()), exhausted);
   return {std::move(contact), is_exhausted};
 }
 

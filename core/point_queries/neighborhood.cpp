@@ -136,7 +136,7 @@ bool is_listed(const Vec3& from, const Vec3& to, double reach, const Neighborhoo
 }
 
 bool sweep_listed(const WideBvh& bvh, const Sweep& sweep, double reach, std::uint64_t budget,
-                  FirstTouch& first, PointMemory& memory, Work& work) noexcept {
+                  FirstTouch& first, PointMemory& memory, LimitedWork& work) noexcept {
   Neighborhood& near = memory.neighborhood;
   auto& list = near.list;
   if (!(near.contacts_reach >= 0) || !is_slow(bvh, sweep.from - near.measured_at)) return false;
@@ -183,13 +183,14 @@ bool sweep_listed(const WideBvh& bvh, const Sweep& sweep, double reach, std::uin
       ++work.triangles;
       if (plane_keeps_apart(triangle, sweep, bvh::offset_at(bvh, slot, nearer))) continue;
     }
+    if (work.exceeds_limit()) return true;
     first.consider(triangle, slot, work.exact_decisions);
   }
   return true;
 }
 
 bool contacts_listed(const WideBvh& bvh, const Vec3& center, double reach, double error,
-                     ContactsWithin& found, PointMemory& memory, Work& work) noexcept {
+                     ContactsWithin& found, PointMemory& memory, LimitedWork& work) noexcept {
   Neighborhood& near = memory.neighborhood;
   auto& list = near.list;
   const bool pays = near.contacts_reach >= 0 && is_slow(bvh, center - near.measured_at);
@@ -199,7 +200,9 @@ bool contacts_listed(const WideBvh& bvh, const Vec3& center, double reach, doubl
   near.measured_count = 0;
   const double farthest = reach + 2 * error;
   if (!is_listed(center, center, farthest, near) &&
-      !(pays && list_around(bvh, center, center, farthest, max_refill_work(bvh) / 2, near, work) &&
+      !(pays &&
+        list_around(bvh, center, center, farthest, std::min(max_refill_work(bvh) / 2, work.left()), near,
+                    work) &&
         is_listed(center, center, farthest, near)))
     return false;
   ++near.answered;
@@ -217,6 +220,7 @@ bool contacts_listed(const WideBvh& bvh, const Vec3& center, double reach, doubl
     }
     if (near.measured_count < near.measured.size()) near.measured[near.measured_count++] = {place, offset};
     found.consider(slot, offset, work);
+    if (work.exceeds_limit()) return true;
   }
   return true;
 }

@@ -59,16 +59,17 @@ struct Neighborhood {
   }
 };
 
-/// Looks for the first touch among the listed triangles, within a budget of work. Returns false where they
-/// may not be all that the ball may reach.
+/// Looks for the first touch among the listed triangles, within the limit of work; `budget` is for a list.
+/// Returns false where they may not be all that the ball may reach.
 bool sweep_listed(const WideBvh& bvh, const Sweep& sweep, double reach, std::uint64_t budget,
-                  FirstTouch& first, PointMemory& memory, Work& work) noexcept;
+                  FirstTouch& first, PointMemory& memory, LimitedWork& work) noexcept;
 /// True if everything within the reach of the way between two points is listed.
 bool is_listed(const Vec3& from, const Vec3& to, double reach, const Neighborhood& near) noexcept;
-/// Adds all listed triangles within the reach to `found`; `error` is the kernel's. Returns false where they
+/// Adds all listed triangles within the reach to `found`, or those that the limit of work allows; `error` is
+/// the kernel's. Returns false where they
 /// may not be all there are.
 bool contacts_listed(const WideBvh& bvh, const Vec3& center, double reach, double error,
-                     ContactsWithin& found, PointMemory& memory, Work& work) noexcept;
+                     ContactsWithin& found, PointMemory& memory, LimitedWork& work) noexcept;
 
 }  // namespace queries
 }  // namespace touchmark

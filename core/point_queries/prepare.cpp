@@ -8,20 +8,21 @@ namespace {
 struct Asked {
   const Surface& surface;
 
-  void touches(const Probe& probe, PointMemory& memory, Work& work) const noexcept {
+  void touches(const Probe& probe, PointMemory& memory, LimitedWork& work) const noexcept {
     queries::touches(surface, probe, memory, work);
   }
-  void nearest(const Vec3& center, double reach, PointMemory& memory, Work& work) const noexcept {
+  void nearest(const Vec3& center, double reach, PointMemory& memory, LimitedWork& work) const noexcept {
     queries::nearest(surface, center, reach, memory, work);
   }
-  void first_hit(const Sweep& sweep, PointMemory& memory, Work& work) const noexcept {
+  void first_hit(const Sweep& sweep, PointMemory& memory, LimitedWork& work) const noexcept {
     queries::first_hit(surface, sweep, memory, work);
   }
 };
 
 }  // namespace
 
-void prepare(const Surface& surface, const LastQuestion& question, PointMemory& memory, Work& work) noexcept {
+void prepare(const Surface& surface, const LastQuestion& question, PointMemory& memory,
+             LimitedWork& work) noexcept {
   const WideBvh& bvh = surface.bvh;
   if (memory.epoch != bvh.epoch() || is_clear(bvh, memory.center, question.reach, memory)) return;
   const Vec3 move = is_slow(bvh, memory.move) ? memory.move : Vec3(Vec3::Zero());

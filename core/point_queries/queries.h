@@ -17,7 +17,7 @@ namespace touchmark::queries {
 
 /// What one haptic point remembers between ticks.
 struct Session {
-  Work work;
+  LimitedWork work;
   LastQuestion question;
   PointMemory memory;
 
@@ -28,25 +28,26 @@ struct Session {
   }
 };
 
-bool touches(const Surface& surface, const Probe& probe, PointMemory& memory, Work& work) noexcept;
+bool touches(const Surface& surface, const Probe& probe, PointMemory& memory, LimitedWork& work) noexcept;
 std::optional<Contact> nearest(const Surface& surface, const Vec3& center, double reach, PointMemory& memory,
                                Work& work) noexcept;
 /// Answers for one of many points, of which little is remembered (followed.cpp).
 std::optional<Contact> nearest(const Surface& surface, const Vec3& center, double reach,
                                bvh::FollowedPoint& point, Work& work) noexcept;
 std::optional<Impact> first_hit(const Surface& surface, const Sweep& sweep, PointMemory& memory,
-                                Work& work) noexcept;
+                                LimitedWork& work) noexcept;
 std::size_t contacts(const Surface& surface, const Vec3& center, double reach, PointMemory& memory,
-                     std::span<Contact> into, bool counts_all, Work& work) noexcept;
+                     std::span<Contact> into, bool counts_all, LimitedWork& work) noexcept;
 /// See the concept TellsCloseTriangles (nearest.cpp).
 bool close_triangles(const Surface& surface, const Vec3& center, double reach, double slack,
                      PointMemory& memory, CloseTriangles& into, Work& work) noexcept;
 /// See the concept ListsTriangles (listing.cpp).
 bool list_triangles(const Surface& surface, const Vec3& center, double radius, ListedTriangles& into,
-                    Work& work) noexcept;
+                    LimitedWork& work) noexcept;
 /// Refills the list of leaves for the next query where the point is near, and asks the question ahead, where
 /// the point will be if it goes on as it moved, unless that is known to be clear.
-void prepare(const Surface& surface, const LastQuestion& question, PointMemory& memory, Work& work) noexcept;
+void prepare(const Surface& surface, const LastQuestion& question, PointMemory& memory,
+             LimitedWork& work) noexcept;
 
 /// The answer of `nearest`, or that `max_work` was exhausted before there was one.
 struct WithinBudget {
@@ -54,6 +55,6 @@ struct WithinBudget {
   bool exhausted;
 };
 WithinBudget nearest_within_budget(const Surface& surface, const Vec3& center, double reach,
-                                   PointMemory& memory, Work& work) noexcept;
+                                   PointMemory& memory, LimitedWork& work) noexcept;
 
 }  // namespace touchmark::queries

@@ -21,7 +21,7 @@ struct MiddleVisitor {
   Vec3 center;
   float limit;
   SweepCandidates& candidates;
-  Work work{};
+  LimitedWork work{};
 
   bool accepts(std::uint32_t at) const noexcept { return !candidates.passes_over(at); }
   void update(std::uint32_t at, const Offset& offset) noexcept {
@@ -34,7 +34,7 @@ struct SweepVisitor {
   double length;  ///< the path's in the tree's frame, rounded up
   float error;
   SweepCandidates& candidates;
-  Work work{};
+  LimitedWork work{};
 
   float until() const noexcept { return static_cast<float>(candidates.limit() * length) + error; }
   void consider(std::uint32_t at) noexcept { candidates.take(at, work); }
@@ -58,18 +58,29 @@ constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 /// In plane_errors of both ends together: the sum of all rounding is below 5 of them.
 constexpr float path_error = 8;
 
+/// What may be in the way is taken to be, at the start.
+std::optional<Impact> undecided() noexcept { return Impact(); }
+
 /// Remembers where the ball is free at the end, or returns what it meets.
 std::optional<Impact> conclude(const Surface& surface, const FirstTouch& first, PointMemory& memory,
-                               Work& work) noexcept {
+                               LimitedWork& work) noexcept {
+  if (work.undecided) return undecided();
   const Sweep& sweep = first.sweep();
   if (surface.certified && !first.found()) {
     memory.free_center = sweep.to;
     memory.free_radius = sweep.radius;
     return std::nullopt;
   }
-  return impact_of(
+  const std::optional<Impact> impact = impact_of(
       first, surface.bvh.parts().triangles, surface.bvh.ids(), surface.certified,
-      [&](double reach_at_start) { return nearest(surface, sweep.from, reach_at_start, memory, work); });
+      [&](double reach_at_start) -> std::optional<Contact> {
+        if (work.limit == LimitedWork::unlimited)
+          return nearest(surface, sweep.from, reach_at_start, memory, work);
+        const WithinBudget start = nearest_within_budget(surface, sweep.from, reach_at_start, memory, work);
+        if (start.exhausted) work.undecided = true;
+        return start.contact;
+      });
+  return work.undecided ? undecided() : impact;
 }
 
 /// True if all of the path is in balls that are clear of the mesh: that about its start, that about its end,
@@ -100,18 +111,19 @@ bool is_sampled_clear(const WideBvh& bvh, const Sweep& sweep, double length, dou
 /// Looks in a ball about the middle, which is rounded to a point. Returns false when the work budget was
 /// exhausted.
 bool search_middle(const WideBvh& bvh, const Sweep& sweep, double length, double reach, std::uint64_t budget,
-                   SweepCandidates& candidates, const PointMemory& memory, Work& work) noexcept {
+                   SweepCandidates& candidates, const PointMemory& memory, LimitedWork& work) noexcept {
   const double ball = reach + position_error(sweep) + 0.5 * length * (1 + 0x1p-40);
   MiddleVisitor visitor{position_at(sweep, 0.5), bvh.frame().limit(ball * ball), candidates};
+  visitor.work = work.rest();
   const bool done =
       search_listed(bvh, bvh.frame().point(visitor.center), visitor, memory, budget) != bvh::exhausted;
-  work += visitor.work;
+  work.take(visitor.work);
   return done;
 }
 
 /// Looks along the path. Returns false when the work budget was exhausted.
 bool search_path(const WideBvh& bvh, const Sweep& sweep, double length, double reach, std::uint64_t budget,
-                 SweepCandidates& candidates, Work& work) noexcept {
+                 SweepCandidates& candidates, LimitedWork& work) noexcept {
   const Vec3 direction = (sweep.to - sweep.from) / length;
   const FilterPoint from = bvh.frame().point(sweep.from), to = bvh.frame().point(sweep.to);
   const float error = path_error * (from.plane_error + to.plane_error);
@@ -122,51 +134,56 @@ bool search_path(const WideBvh& bvh, const Sweep& sweep, double length, double r
                        std::sqrt(bvh.frame().limit(reach * reach)) * (1 + 0x1p-20F) + error,
                        error};
   SweepVisitor visitor{length * bvh.frame().scale() * (1 + 0x1p-20), error, candidates};
+  visitor.work = work.rest();
   const bool done =
       bvh::with_isa(bvh.simd(), [&](auto isa) { return isa.sweep(bvh.parts(), path, budget, visitor); });
   candidates.consider_waiting(visitor.work);
-  work += visitor.work;
+  work.take(visitor.work);
   return done;
 }
 
 }  // namespace
 
 std::optional<Impact> first_hit(const Surface& surface, const Sweep& sweep, PointMemory& memory,
-                                Work& work) noexcept {
+                                LimitedWork& work) noexcept {
   const WideBvh& bvh = surface.bvh;
-  if (!bvh.can_search(sweep.from) || !bvh.can_search(sweep.to))
+  const auto look_at_all = [&]() -> std::optional<Impact> {
+    if (must_end(bvh, work)) return undecided();
     return scan_of(bvh, surface.certified, work).first_hit(sweep, work);
+  };
+  if (!bvh.can_search(sweep.from) || !bvh.can_search(sweep.to)) return look_at_all();
   memory.claim(bvh.epoch());
   if constexpr (tracing)
     if (visits != nullptr) visits->frame = &bvh.frame();
   const std::uint64_t before = work.total();
   const double reach = padded_sweep_radius(sweep, largest_difference(bvh.bounds(), sweep));
   FirstTouch first(sweep);
-  if (surface.certified && sweep_listed(bvh, sweep, reach, max_work(bvh) / 2, first, memory, work))
+  if (surface.certified &&
+      sweep_listed(bvh, sweep, reach, std::min(max_work(bvh) / 2, work.left()), first, memory, work))
     return conclude(surface, first, memory, work);
   if (!memory.knows_free(sweep.from, sweep.radius) && !is_clear(bvh, sweep.from, sweep.radius, memory) &&
       !(surface.certified && stands_as_proxy(sweep.from, memory))) {
     const WithinBudget start = nearest_within_budget(surface, sweep.from, sweep.radius, memory, work);
-    if (start.exhausted) return scan_of(bvh, surface.certified, work).first_hit(sweep, work);
+    if (start.exhausted) return look_at_all();
     if (start.contact) return Impact{0, *start.contact};
   }
   if (is_clear(bvh, sweep, memory)) return std::nullopt;
   const double length = (sweep.to - sweep.from).norm();
   if (is_sampled_clear(bvh, sweep, length, reach, memory)) return std::nullopt;
-  const std::uint64_t budget = remaining(max_work(bvh), work.total() - before);
+  const auto budget = [&] { return std::min(remaining(max_work(bvh), work.total() - before), work.left()); };
   SweepCandidates candidates(bvh, sweep.radius > bvh.mean_leaf_radius(),
                              memory.is_near() ? memory.slot : nowhere, first);
   const bool is_short =
       length <= max_in_leaf_radii * bvh.mean_leaf_radius() &&
       length * reach <= max_product_in_leaf_radii * bvh.mean_leaf_radius() * bvh.mean_leaf_radius();
-  const bool done = (is_short && search_middle(bvh, sweep, length, reach, std::min(budget, middle_budget),
+  const bool done = (is_short && search_middle(bvh, sweep, length, reach, std::min(budget(), middle_budget),
                                                candidates, memory, work)) ||
-                    search_path(bvh, sweep, length, reach, remaining(max_work(bvh), work.total() - before),
-                                candidates, work);
-  if (!done) {
+                    search_path(bvh, sweep, length, reach, budget(), candidates, work);
+  if (!done && !work.undecided && !must_end(bvh, work)) {
     bvh::build_rest(bvh.parts(), work);
     work.triangles += bvh.parts().triangles.size();
-    for (std::uint32_t at = 0; at < bvh.parts().triangles.size(); ++at) candidates.consider(at, work);
+    for (std::uint32_t at = 0; at < bvh.parts().triangles.size() && !work.undecided; ++at)
+      candidates.consider(at, work);
   }
   return conclude(surface, first, memory, work);
 }

@@ -17,7 +17,7 @@ Vec3 nearest_place(const Sweep& sweep, const Vec3& point) noexcept {
 
 }  // namespace
 
-void SweepCandidates::consider_waiting(Work& work) noexcept {
+void SweepCandidates::consider_waiting(LimitedWork& work) noexcept {
   unsigned apart = 0;
   if (waiting_count_ >= bvh::min_at_once) {
     bvh::EightPlanes planes;
@@ -31,7 +31,7 @@ void SweepCandidates::consider_waiting(Work& work) noexcept {
   waiting_count_ = 0;
 }
 
-void SweepCandidates::look_at(std::uint32_t at, Work& work) noexcept {
+void SweepCandidates::look_at(std::uint32_t at, LimitedWork& work) noexcept {
   if (!is_prepared_) prepare(work);
   if (!is_apart_by_known(at) && !is_apart_elsewhere(at, end())) decide(at, work);
   settle(at);
@@ -40,7 +40,7 @@ void SweepCandidates::look_at(std::uint32_t at, Work& work) noexcept {
 /// A first touch that is known is what this one must not touch before. Else the place of the path that is
 /// nearest to what was found is often about where the triangle is nearest.
 void SweepCandidates::consider(std::uint32_t at, const Vec3& place, const Offset& found,
-                               Work& work) noexcept {
+                               LimitedWork& work) noexcept {
   if (shown_ >= many && !is_prepared_) prepare(work);
   if (!is_apart_across(at, direction_of(found)) && !(is_prepared_ && is_apart_by_known(at))) {
     const Vec3 next = first_.found() ? end() : nearest_place(first_.sweep(), place - found.vector);
@@ -51,7 +51,7 @@ void SweepCandidates::consider(std::uint32_t at, const Vec3& place, const Offset
 
 /// A ball that slides along a face or an edge keeps off that plane, and all that is behind it is apart. If it
 /// leaves the plane to the other side, that triangle is the first it meets.
-void SweepCandidates::prepare(Work& work) noexcept {
+void SweepCandidates::prepare(LimitedWork& work) noexcept {
   settled_.fill(0);
   is_prepared_ = true;
   if (near_ >= triangles_.size()) return;

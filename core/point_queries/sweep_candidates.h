@@ -37,20 +37,20 @@ class SweepCandidates {
   }
   /// Looks at the triangle in this slot now, or together with others that wait: where there are eight, or
   /// `consider_waiting` is called.
-  void take(std::uint32_t at, Work& work) noexcept {
+  void take(std::uint32_t at, LimitedWork& work) noexcept {
     if (!waits_) return consider(at, work);
     waiting_[waiting_count_++] = at;
     if (waiting_count_ == waiting_.size()) consider_waiting(work);
   }
-  void consider_waiting(Work& work) noexcept;
+  void consider_waiting(LimitedWork& work) noexcept;
   /// Looks at the triangle in this slot. Counts where whole numbers decide.
-  void consider(std::uint32_t at, Work& work) noexcept {
+  void consider(std::uint32_t at, LimitedWork& work) noexcept {
     if (passes_over(at)) return;
     if (shown_ < many) return decide(at, work);
     look_at(at, work);
   }
   /// Likewise, where its offset to a place on the path is known.
-  void consider(std::uint32_t at, const Vec3& place, const Offset& found, Work& work) noexcept;
+  void consider(std::uint32_t at, const Vec3& place, const Offset& found, LimitedWork& work) noexcept;
 
  private:
   /// So many triangles are many: it pays to look for planes, and to remember what has been settled.
@@ -66,14 +66,15 @@ class SweepCandidates {
   void settle(std::uint32_t at) noexcept {
     if (is_prepared_ && at < max_settled) settled_[at / 64] |= std::uint64_t{1} << at % 64;
   }
-  void look_at(std::uint32_t at, Work& work) noexcept;
-  void prepare(Work& work) noexcept;
+  void look_at(std::uint32_t at, LimitedWork& work) noexcept;
+  void prepare(LimitedWork& work) noexcept;
   Vec3 face_towards_start(std::uint32_t at) const noexcept;
   bool is_apart_across(std::uint32_t at, const Vec3& normal) noexcept;
   bool is_apart_by_known(std::uint32_t at) noexcept;
   bool is_apart_elsewhere(std::uint32_t at, const Vec3& place) noexcept;
-  /// Asks the exact sweep.
-  void decide(std::uint32_t at, Work& work) noexcept {
+  /// Asks the exact sweep, within the limit.
+  void decide(std::uint32_t at, LimitedWork& work) noexcept {
+    if (work.exceeds_limit()) return first_.give_up();
     first_.consider(triangles_[at], at, work.exact_decisions);
   }
   /// Returns where the ball is at the first touch so far, rounded, or at the end of the path.

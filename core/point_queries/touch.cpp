@@ -39,7 +39,7 @@ struct TouchVisitor {
   double open_up_to;  ///< one that exceeds it by more than this is surely not
   float limit = -1;
   float enough = -1;  ///< in the tree's frame: a triangle no farther is surely within the radius
-  Work work{};
+  LimitedWork work{};
   double least = std::numeric_limits<double>::infinity();  ///< distance of the one kept, else of those shown
   std::uint32_t kept_at = nowhere;
   std::uint32_t open_count = 0;
@@ -64,12 +64,13 @@ struct TouchVisitor {
   /// Keeps the first of those left open that is within the radius, if there is one.
   [[gnu::cold, gnu::noinline]] void decide_open() noexcept {
     if (!is_within) is_within.emplace(center, radius, open_up_to);
-    for (std::size_t i = 0; i < open_count && kept_at == nowhere; ++i) {
+    for (std::size_t i = 0; i < open_count && kept_at == nowhere && !work.exceeds_limit(); ++i) {
       const PreparedTriangle& triangle = tree.triangles[open[i]];
       const double distance = std::sqrt(squared_distance(triangle, center));
       if ((*is_within)(triangle, distance, work.exact_decisions)) keep(open[i], distance);
     }
     open_count = 0;
+    if (work.undecided) limit = -1;
   }
 
  private:
@@ -95,7 +96,7 @@ struct TouchVisitor {
 /// True if what was near last still touches: by its planes, else by the kernel.
 [[gnu::always_inline]] inline bool still_touches(const Surface& surface, const FilterPoint& point,
                                                  const Probe& probe, PointMemory& memory,
-                                                 Work& work) noexcept {
+                                                 LimitedWork& work) noexcept {
   const WideBvh& bvh = surface.bvh;
   const FilterFrame& frame = bvh.frame();
   const Vec3& center = probe.center;
@@ -119,7 +120,7 @@ struct TouchVisitor {
   TouchVisitor visitor(bvh.parts(), center, radius, error, surface.certified);
   bvh::visit(bvh, memory.slot, visitor);
   if (visitor.open_count > 0) visitor.decide_open();
-  work += visitor.work;
+  work.take(visitor.work);
   if (visitor.kept_at == nowhere) return false;
   memory.remember(center, 0, visitor.least);
   return true;
@@ -127,7 +128,7 @@ struct TouchVisitor {
 
 }  // namespace
 
-bool touches(const Surface& surface, const Probe& probe, PointMemory& memory, Work& work) noexcept {
+bool touches(const Surface& surface, const Probe& probe, PointMemory& memory, LimitedWork& work) noexcept {
   const WideBvh& bvh = surface.bvh;
   const Vec3& center = probe.center;
   const double radius = probe.radius;
@@ -135,12 +136,13 @@ bool touches(const Surface& surface, const Probe& probe, PointMemory& memory, Wo
   if constexpr (tracing)
     if (visits != nullptr) visits->frame = &bvh.frame();
   const FilterPoint point = bvh.frame().point(center);
-  if (!bvh.can_search(point)) return nearest_of_every(bvh, center, radius, work).has_value();
+  if (!bvh.can_search(point))
+    return must_end(bvh, work) || nearest_of_every(bvh, center, radius, work).has_value();
   const bool was_near = memory.is_near();
   if (was_near && (accepts_by_distance_field(bvh, point, center, radius, memory) ||
                    still_touches(surface, point, probe, memory, work)))
     return true;
-  std::uint64_t budget = max_work(bvh);
+  std::uint64_t budget = std::min(max_work(bvh), work.left());
   if (rejects_by_distance_field(bvh, point, center, radius, memory) ||
       (bvh.is_lazy() && rejects_once_sampled(bvh, point, center, radius, memory, budget, work)))
     return false;
@@ -149,12 +151,14 @@ bool touches(const Surface& surface, const Probe& probe, PointMemory& memory, Wo
   TouchVisitor visitor(bvh.parts(), center, radius, error, surface.certified);
   visitor.limit = bvh.frame().limit((radius + error) * (radius + error));
   visitor.enough = bvh.frame().to_frame_rounded_down(radius - error);
+  visitor.work = work.rest();
   const float unseen = bvh::traverse(bvh, point, visitor, budget);
   if (visitor.kept_at == nowhere && visitor.open_count > 0) visitor.decide_open();
-  work += visitor.work;
-  if (unseen == bvh::exhausted && visitor.kept_at == nowhere) {
+  work.take(visitor.work);
+  if (visitor.kept_at == nowhere && (unseen == bvh::exhausted || visitor.work.undecided)) {
     memory.forget_distance();
-    return scan_of(bvh, surface.certified, work).touches(probe, work);
+    return visitor.work.undecided || must_end(bvh, work) ||
+           scan_of(bvh, surface.certified, work).touches(probe, work);
   }
   if (visitor.kept_at == nowhere) {
     memory.remember(center, clearance_from(bvh, unseen, visitor.least, clearance_pad(bvh, point)), infinity);

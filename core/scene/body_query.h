@@ -88,18 +88,20 @@ class BodyQuery {
     return -std::numeric_limits<double>::infinity();
   }
 
-  bool touches(double radius, Work& work) const noexcept {
+  bool touches(double radius, LimitedWork& work) const noexcept {
     // A detector's own answer costs less than the nearest triangle, and decides all but distances that
     // rounding leaves open.
     if (!shape_.detector->touches({seen_.center(), seen_.reach_in_frame(radius, error_)}, session_))
       return false;
     const double inner = seen_.surely_within(radius, error_);
     if (inner >= 0 && shape_.detector->touches({seen_.center(), inner}, session_)) return true;
-    const std::optional<DistanceInterval> known = distance(radius);
-    if (!known) return false;
-    if (known->upper <= radius) return true;
+    if (work.limit == LimitedWork::unlimited) {  // as `nearest` keeps to none
+      const std::optional<DistanceInterval> known = distance(radius);
+      if (!known) return false;
+      if (known->upper <= radius) return true;
+    }
     return for_each_within(radius, [&](const ImageCandidate& candidate) {
-      return is_within(candidate, seen_.point(), radius, work.exact_decisions);
+      return work.exceeds_limit() || is_within(candidate, seen_.point(), radius, work.exact_decisions);
     });
   }
 
@@ -161,6 +163,8 @@ class BodyQuery {
  private:
   template <class Visit>
   bool for_each_of_all(const SeenCorners& corners, const Visit& visit) const noexcept {
+    if constexpr (KeepsToLimit<D>)
+      if (session_.work.exceeds_limit(shape_.mesh->size())) return false;
     session_.work.triangles += shape_.mesh->size();
     for (std::uint32_t i = 0; i < shape_.mesh->size(); ++i)
       if (visit(candidate(corners, i))) return true;

@@ -48,7 +48,7 @@ class BodySweep {
         body_(body) {}
 
   /// The first touch, its fraction 0 where the probe may touch at the start; or nothing.
-  std::optional<Impact> first_hit(Work& work) const noexcept {
+  std::optional<Impact> first_hit(LimitedWork& work) const noexcept {
     // Along the way the image of the point in the body's frame is off by no more than at an end.
     const SeenBody& farther = from_.seen().residue() > to_.residue() ? from_.seen() : to_;
     const Accuracy accuracy = shape_.detector->accuracy();
@@ -72,12 +72,13 @@ class BodySweep {
   Sweep in_frame(double radius) const noexcept { return {from_.seen().center(), to_.center(), radius}; }
 
   /// Does the way come within the radius of an image? Exact.
-  bool comes_within(double error, Work& work) const noexcept {
+  bool comes_within(double error, LimitedWork& work) const noexcept {
     const Around around = around_way(sweep_, error);
     const SeenBody seen(placed_.pose, double{placed_.rigid}, around.center);
     const BodyQuery<D> query(shape_, seen, body_, session_);
     return query.for_each_within(around.reach, [&](const ImageCandidate& candidate) {
       if (candidate.distance.lower > around.reach) return false;
+      if (work.exceeds_limit()) return true;
       ++work.exact_decisions;
       return path_within_exactly(candidate.posed, sweep_.from, sweep_.to, 1, sweep_.radius);
     });

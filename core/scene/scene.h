@@ -44,11 +44,12 @@ template <BodyDetector D>
 class Scene {
  public:
   using Options = typename D::Options;
+  static constexpr bool keeps_to_limit = KeepsToLimit<D>;
   /// Bodies that are not listed share so many memories, by their shapes.
   static constexpr std::size_t unlisted_room = 8;
   /// What one haptic point remembers between ticks.
   struct Session {
-    Work work;
+    LimitedWork work;
     NearBodies near;
     NearSurface surface;
     SceneQuestion last;
@@ -187,17 +188,26 @@ class Scene {
     }
     return asked.session;
   }
+  /// Adds what a body's session has counted, and clears that.
+  static void take_work(typename D::Session& own, Session& session) noexcept {
+    if constexpr (keeps_to_limit)
+      session.work.take(own.work);
+    else
+      session.work += own.work;
+    own.work = {};
+  }
   static constexpr double unknown = -std::numeric_limits<double>::infinity();
-  /// Returns what `ask` does: a bound of the body's distance, or `unknown`.
+  /// Returns what `ask` does, within what is left of the session's limit: a bound of the body's distance, or
+  /// `unknown`.
   template <class Ask>
   double ask(std::size_t slot, std::uint32_t body, const SeenBody& seen, Session& session,
              const Ask& ask) const noexcept {
     const Shape<D>* shape = shapes_.needed(bodies_[body].shape);
-    if (shape == nullptr) return unknown;
+    if (shape == nullptr || session.work.exceeds_limit()) return unknown;
     typename D::Session& own = session_of(slot, body, session);
+    if constexpr (keeps_to_limit) own.work = session.work.rest();
     const double lower = ask(*shape, body, seen, own);
-    session.work += own.work;
-    own.work = {};
+    take_work(own, session);
     return lower;
   }
   template <class Ask>

@@ -30,6 +30,7 @@ template <class LeftOut, class Ask>
 void Scene<D>::ask_unlisted(const Vec3& from, const Vec3& to, double length, const double& limit,
                             Session& session, const LeftOut& is_left_out, const Ask& ask) const noexcept {
   auto visit = [&](std::uint32_t body) {
+    if (session.work.undecided) return unknown;  // which ends it
     if (is_left_out(body)) return limit;
     ++session.work.bodies;
     const PlacedBody& placed = bodies_[body];
@@ -114,7 +115,7 @@ bool Scene<D>::touches(const Probe& probe, Session& session) const noexcept {
              return with_query(shape, body, seen, own, found);
            });
   session.surface.remember(probe.center, probe.radius, bodies_);
-  return touching;
+  return touching || session.work.undecided;
 }
 
 template <BodyDetector D>
@@ -168,10 +169,12 @@ std::optional<BodyImpact> Scene<D>::first_hit_body(const Sweep& sweep,
         whose = body;
         return unknown;
       });
+  if (session.work.undecided) return BodyImpact();
   if (!first) return std::nullopt;
   if (first->fraction == 0) {
     if (const auto start = nearest_body({sweep.from, sweep.radius}, sweep.radius, session))
       return BodyImpact{start->body, {0, start->contact}};
+    if (session.work.undecided) return BodyImpact();
     first->fraction = std::numeric_limits<double>::denorm_min();
   }
   return BodyImpact{bodies_.id(whose), *first};
@@ -224,7 +227,7 @@ void Scene<D>::for_each_contact(const Probe& probe, double reach, Session& sessi
                query.for_each_within(reach, [&](const ImageCandidate& candidate) {
                  if (is_within(candidate, probe.center, reach, session.work.exact_decisions))
                    found(body, contact_on_image(candidate, probe.center, session.work.exact_decisions));
-                 return false;
+                 return session.work.exceeds_limit();
                });
                return unknown;
              });
@@ -270,8 +273,7 @@ void Scene<D>::prepare(Session& session) const noexcept requires Prepares<D> {
         bodies_.has(entry.id) && asked.epoch == bodies_.epoch() ? shapes_.built(asked.shape) : nullptr;
     if (shape == nullptr || shape->is_round() || asked.shape != bodies_[entry.id.index].shape) return;
     shape->detector->prepare(asked.session);
-    session.work += asked.session.work;
-    asked.session.work = {};
+    take_work(asked.session, session);
   }
 }
 

@@ -73,7 +73,7 @@ inline bool ContactsWithin::is_before(const Found& a, const Found& b) noexcept {
 bool ContactsWithin::is_before_as_near(const Found& a, const Found& b) noexcept {
   if (a.slot == b.slot) return false;
   const PreparedTriangle &first = question_.triangles[a.slot], &other = question_.triangles[b.slot];
-  if (!question_.decides_exactly)
+  if (!question_.decides_exactly || ran_out())
     return Candidate{a.distance, first.index} < Candidate{b.distance, other.index};
   if (!is_scaled_) {
     // The kernel gives the same bits for triangles that share the place that is nearest.
@@ -148,7 +148,8 @@ void ContactsWithin::drop_farther() noexcept {
 /// These are the bits that `nearest` gives of the nearest triangle.
 Contact ContactsWithin::finished(const Found& kept) noexcept {
   const PreparedTriangle& triangle = question_.triangles[kept.slot];
-  if (question_.decides_exactly && (is_scaled_ || !is_certain(kept.distance, question_.reach, error_))) {
+  if (question_.decides_exactly && !ran_out() &&
+      (is_scaled_ || !is_certain(kept.distance, question_.reach, error_))) {
     NearestOfTies only(question_.center);
     only.consider(triangle);
     const std::optional<Contact> contact = only.contact(question_.reach, error(), question_.ids);
@@ -180,12 +181,15 @@ void ContactsWithin::sort(std::span<Kept> kept) noexcept {
     for (; at > 0 && comes_before(moved, kept[at - 1]); --at, ++moves) kept[at] = kept[at - 1];
     kept[at] = moved;
     if (moves <= moves_a_contact * kept.size()) continue;
-    std::sort(kept.begin(), kept.end(), comes_before);
+    // As a heap: an order that changes when decisions run out must lead nowhere outside.
+    std::make_heap(kept.begin(), kept.end(), comes_before);
+    std::sort_heap(kept.begin(), kept.end(), comes_before);
     return;
   }
 }
 
-std::size_t ContactsWithin::finish(Work& work) noexcept {
+std::size_t ContactsWithin::finish(Work& work, std::uint64_t max_decisions) noexcept {
+  max_decisions_ = max_decisions;
   if (gathered_count_ > question_.into.size()) drop_farther();
   const auto end_with = [&](auto kept) {
     sort(kept);

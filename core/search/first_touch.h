@@ -31,6 +31,8 @@ class FirstTouch {
   /// Returns the part of the path that is still to be looked at.
   double limit() const noexcept { return std::min(fraction_, 1.0); }
 
+  /// Leaves nothing of the path to look at.
+  void give_up() noexcept { fraction_ = -1; }
   /// Looks at the triangle in this slot; counts where whole numbers decide.
   void consider(const PreparedTriangle& triangle, std::uint32_t slot,
                 std::uint64_t& exact_decisions) noexcept {

@@ -21,6 +21,7 @@ template <Detector D>
 class Signed {
  public:
   using Options = typename D::Options;
+  static constexpr bool keeps_to_limit = KeepsToLimit<D>;
   /// The detector's own session, with one counter more.
   struct Session : D::Session {
     std::uint64_t counted = 0;  ///< sides that pseudonormals did not decide
@@ -53,7 +54,7 @@ class Signed {
   std::optional<Impact> first_hit(const Sweep& sweep,
                                   Session& session) const noexcept requires AnswersSweep<D> {
     std::optional<Impact> impact = detector_.first_hit(sweep, session);
-    if (impact) {
+    if (impact && !is_undecided(session)) {
       constexpr Accuracy approximate{Guarantee::approximate, 0, 0, false};
       impact->contact.side =
           sides_.side(position_at(sweep, impact->fraction), impact->contact, approximate, session.counted);
@@ -81,6 +82,11 @@ class Signed {
   const SideFinder& sides() const noexcept { return sides_; }
 
  private:
+  /// Then a hit says nothing of a place.
+  static bool is_undecided([[maybe_unused]] const Session& session) noexcept {
+    if constexpr (keeps_to_limit) return session.work.undecided;
+    return false;
+  }
   Signed(D detector, SideFinder sides) : detector_(std::move(detector)), sides_(std::move(sides)) {}
 
   D detector_;

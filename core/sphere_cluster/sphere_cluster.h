@@ -32,6 +32,7 @@ class SphereCluster {
   };
   /// What one haptic point remembers between ticks.
   using Session = queries::Session;
+  static constexpr bool keeps_to_limit = true;
 
   /// What is remembered of one of many points, in six cache lines.
   using FollowedPoint = bvh::FollowedPoint;

@@ -144,6 +144,8 @@ class ProxyState(NamedTuple):
     contacts: npt.NDArray[np.float64]
     """The normals of the planes that hold it, 3 at most, unit, out of the surface, (k, 3)."""
     status: ProxyStatus
+    unfinished: bool
+    """True if it ended at max_work, at a place that is as sure as any. The next step goes on."""
 
 
 def _is_masked(value: Any) -> bool:
@@ -544,7 +546,8 @@ class Proxy:
 
     radius: of the ball, mesh units; 0: the bare point. stiffness: N a mesh unit, of the spring between proxy and tip.
     static_friction, dynamic_friction: coefficients, the latter at most the former. damping: N s a mesh unit, in contact.
-    tick_s: seconds between two steps. The detector must decide exactly: not with certified=False or precise=False.
+    tick_s: seconds between two steps. max_work: bounds what a step looks at, in boxes and triangles; 0: nothing does.
+    The detector must decide exactly: not with certified=False or precise=False.
 
     A step takes microseconds in Python: this is for trying things out, not for a loop at 1 kHz with other threads beside it.
     """
@@ -553,11 +556,12 @@ class Proxy:
 
     def __init__(self, detector: Detector, position: npt.ArrayLike, *, radius: float = 0.0, stiffness: float = 1000.0,
                  static_friction: float = 0.0, dynamic_friction: float = 0.0, damping: float = 0.0,
-                 tick_s: float = 0.001) -> None:
+                 tick_s: float = 0.001, max_work: int = 0) -> None:
         if not isinstance(detector, Detector):
             raise TypeError(f"a Proxy is over a detector such as touchmark.GridGroup, not over a {type(detector).__name__}")
         self._detector = detector
-        self._native = _native.Proxy(detector._native, radius, stiffness, static_friction, dynamic_friction, damping, tick_s)
+        self._native = _native.Proxy(detector._native, radius, stiffness, static_friction, dynamic_friction, damping, tick_s,
+                                     max_work)
         self.place(position)
 
     @property
@@ -574,5 +578,5 @@ class Proxy:
 
     def step(self, goal: npt.ArrayLike) -> ProxyState:
         """One tick: follows the goal, (3,), which is the device's tip, as far as the surface lets it."""
-        position, force, contacts, status = self._native.step(_point("goal", goal))
-        return ProxyState(position, force, contacts, ProxyStatus(status))
+        position, force, contacts, status, unfinished = self._native.step(_point("goal", goal))
+        return ProxyState(position, force, contacts, ProxyStatus(status), unfinished)

@@ -90,6 +90,10 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
     {"stopped_short", text<&Score::tally, &T::stopped_short>, always, whole_number,
      "Ticks that end off their goal though straight on towards it a thousandth of the radius, or for a point a "
      "millionth of the diagonal, was free, and more than 2^-32 of the coordinates; exact."},
+    {"unfinished", text<&Score::tally, &T::unfinished>, always, whole_number,
+     "Ticks that their limit of work ended; their ends are not judged."},
+    {"max_lag", text<&Score::tally, &T::max_lag>, always, finite,
+     "The proxy's largest distance from where it would be without that limit, in m; 0 without one."},
 });
 
 }  // namespace

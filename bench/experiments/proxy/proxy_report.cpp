@@ -27,6 +27,8 @@ Tally sum_of(const std::vector<const Score*>& scores) {
     sum.violations += one.violations, sum.missed_goals += one.missed_goals,
         sum.stopped_short += one.stopped_short, sum.jitters += one.jitters;
     sum.unanswered += one.unanswered, sum.stuck_ticks += one.stuck_ticks, sum.work += one.work;
+    sum.unfinished += one.unfinished;
+    sum.max_lag = std::max(sum.max_lag, one.max_lag);
     sum.max_shortfall = std::max(sum.max_shortfall, one.max_shortfall);
     sum.max_optimum_error = std::max(sum.max_optimum_error, one.max_optimum_error);
     sum.max_force_jump = std::max(sum.max_force_jump, one.max_force_jump);
@@ -65,8 +67,8 @@ std::string crossings_table(const std::vector<Score>& scores) {
 
 std::string sums_table(const std::vector<Score>& scores) {
   support::Table table({"method", "ticks", "crossed", "popped", "too near", "by m", "off optimum m",
-                        "goals missed", "stopped short", "jitters", "stuck", "no answer", "force jump N",
-                        "energy J", "worst p50 ns", "p99.9 ns", "max ns"});
+                        "goals missed", "stopped short", "jitters", "stuck", "unfinished", "lag m",
+                        "no answer", "force jump N", "energy J", "worst p50 ns", "p99.9 ns", "max ns"});
   for (const auto& [method, of_it] : by_method(scores)) {
     const Tally sum = sum_of(of_it);
     std::int64_t median = 0, late = 0, worst = 0;  // of families: the largest
@@ -79,9 +81,9 @@ std::string sums_table(const std::vector<Score>& scores) {
     const auto short_text = [](double value) { return fmt::format("{:.3g}", value); };
     table.add({method, text(sum.ticks), text(sum.crossings), text(sum.pops), text(sum.violations),
                short_text(sum.max_shortfall), short_text(sum.max_optimum_error), text(sum.missed_goals),
-               text(sum.stopped_short), text(sum.jitters), text(sum.stuck_ticks), text(sum.unanswered),
-               short_text(sum.max_force_jump), short_text(sum.max_energy), text(median), text(late),
-               text(worst)});
+               text(sum.stopped_short), text(sum.jitters), text(sum.stuck_ticks), text(sum.unfinished),
+               short_text(sum.max_lag), text(sum.unanswered), short_text(sum.max_force_jump),
+               short_text(sum.max_energy), text(median), text(late), text(worst)});
   }
   return table.text();
 }

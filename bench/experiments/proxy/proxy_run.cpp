@@ -58,6 +58,7 @@ void run_course(const contestants::Roster& roster, const Course& course, const s
     const std::int64_t ns = ns_since(before);
     tally.times.add(ns);
     judge.tick(tick, step);
+    tally.max_lag = std::max(tally.max_lag, proxy->lag(course.goals[tick]));
     if (seen) seen(tick, step, ns);
   }
   tally.work += proxy->work();

@@ -21,7 +21,7 @@ struct LastQuestion {
 /// stays as it was. `structure` has the three queries, with `memory` and `work` in place of a session.
 template <class Structure, class Memory>
 void ask_again(const Structure& structure, const LastQuestion& question, const Vec3& center, const Vec3& move,
-               Memory& memory, Work& work) noexcept {
+               Memory& memory, LimitedWork& work) noexcept {
   const LastDistance kept = memory;
   switch (question.query) {
     case LastQuestion::Query::none:

@@ -107,11 +107,12 @@ TEST(CInterface, LaysItsStructsOutAsThePageSays) {
                 offsetof(touchmark_contact, distance) == 48 && offsetof(touchmark_contact, triangle) == 56 &&
                 offsetof(touchmark_contact, side) == 60);
   static_assert(sizeof(touchmark_impact) == 72 && offsetof(touchmark_impact, contact) == 8);
-  static_assert(sizeof(touchmark_coupling) == 48 && offsetof(touchmark_coupling, tick_s) == 40);
-  static_assert(sizeof(touchmark_proxy_state) == 128 && offsetof(touchmark_proxy_state, force) == 24 &&
-                offsetof(touchmark_proxy_state, normals) == 48 &&
-                offsetof(touchmark_proxy_state, status) == 120 &&
-                offsetof(touchmark_proxy_state, contacts) == 124);
+  static_assert(sizeof(touchmark_coupling) == 56 && offsetof(touchmark_coupling, tick_s) == 40 &&
+                offsetof(touchmark_coupling, max_work) == 48);
+  static_assert(
+      sizeof(touchmark_proxy_state) == 136 && offsetof(touchmark_proxy_state, force) == 24 &&
+      offsetof(touchmark_proxy_state, normals) == 48 && offsetof(touchmark_proxy_state, status) == 120 &&
+      offsetof(touchmark_proxy_state, contacts) == 124 && offsetof(touchmark_proxy_state, flags) == 128);
 }
 
 TEST(CInterface, AnswersTheBitsOfBruteForceWhateverTheDetector) {
@@ -469,6 +470,14 @@ TEST(CInterface, AProxySaysWhatItCannotBeMadeOf) {
   expect_refused(&touchmark_coupling::tick_s, 0, "tick_s is 0; a tick takes time");
   expect_refused(&touchmark_coupling::dynamic_friction, 0.5,
                  "dynamic_friction is 0.500000, more than static_friction, 0.000000");
+  const Asked unlimited(unit_triangle, "aabb-tree");
+  touchmark_coupling coupling;
+  touchmark_coupling_default(&coupling);
+  coupling.max_work = 100;
+  EXPECT_EQ(touchmark_proxy_create(unlimited.detector(), &coupling), nullptr);
+  expect_error(
+      "touchmark_proxy_create: max_work is 100, but this detector keeps to no limit; sphere-cluster and "
+      "grid-group do");
   EXPECT_EQ(touchmark_coupling_default(nullptr), TOUCHMARK_ERROR);
 }
 

@@ -64,6 +64,8 @@ struct Watched {
       EXPECT_EQ(state.contacts, 0u) << where;
       EXPECT_EQ(state.force, Vec3::Zero()) << where;
       EXPECT_EQ(state.status, ProxyStatus::free) << where;
+    } else if (state.unfinished) {
+      EXPECT_GE(state.contacts, 1u) << where;
     } else {
       EXPECT_EQ(state.status, ProxyStatus::in_contact) << where;
       EXPECT_GE(state.contacts, 1u) << where;
@@ -91,7 +93,7 @@ Vec3 start_of(const TriangleMesh& mesh, double radius) {
 /// Goals in and about the mesh: far ones, near ones, small steps, rests, and corners of its triangles.
 template <class D>
 void explore(const TriangleMesh& mesh, double radius, std::uint64_t seed, const std::string& name,
-             Coupling coupling = {}, int ticks = 60) {
+             Coupling coupling = {}, int ticks = 60, bool limits_work = false) {
   coupling.radius = radius;
   Watched<D> watched(mesh, coupling);
   Random random(seed);
@@ -100,6 +102,7 @@ void explore(const TriangleMesh& mesh, double radius, std::uint64_t seed, const 
   watched.proxy.place(start_of(mesh, radius));
   Vec3 goal = watched.proxy.state().position;
   for (int tick = 0; tick < ticks; ++tick) {
+    if (limits_work) watched.proxy.limit_work(std::uint64_t{1} << random.below(14));
     switch (random.below(6)) {
       case 0:
         goal = middle + 0.7 * size * random.unit() * random.direction();
@@ -133,6 +136,45 @@ TEST(Proxy, NeverComesAsNearAsItsRadiusOnMeshesThatAreHard) {
       if (HasFailure()) return;
     }
   }
+}
+
+/// Each tick within another limit of work, from one look up.
+TEST(Proxy, NeverComesAsNearWithinALimitOfWork) {
+  std::uint64_t seed = 500;
+  for (const NamedMesh& named : corner_case_meshes()) {
+    const double size = named.mesh.diagonal();
+    if (!(size < 1e100)) continue;
+    for (const double radius : {0.0, 0.02 * size, 0.5 * size}) {
+      const std::string where = named.name + ", radius " + std::to_string(radius);
+      explore<GridGroup>(named.mesh, radius, ++seed, where + ", grid group", {}, 60, true);
+      explore<SphereCluster>(named.mesh, radius, ++seed, where + ", sphere cluster", {}, 60, true);
+      if (HasFailure()) return;
+    }
+  }
+}
+
+/// A goal that stays is reached over some ticks, the same place as at once.
+TEST(Proxy, GoesOnWhereItsLimitEndedATick) {
+  const TriangleMesh ball = octasphere(40);
+  const SphereCluster detector = SphereCluster::build(ball);
+  SphereCluster::Session session, free_session;
+  Proxy<SphereCluster> limited(detector, {.radius = 0.05, .max_work = 300}, &ball),
+      free(detector, {.radius = 0.05}, &ball);
+  Random random(2);
+  limited.place({0, 0, 1.2});
+  free.place({0, 0, 1.2});
+  int unfinished = 0;
+  Vec3 goal(0, 0, 1.2);
+  for (int tick = 0; tick < 600; ++tick) {
+    if (tick % 20 == 0)
+      goal = (0.9 + 0.2 * random.unit()) * (goal.normalized() + 0.1 * random.direction()).normalized();
+    const ProxyState& state = limited.step(goal, session);
+    unfinished += state.unfinished ? 1 : 0;
+    EXPECT_FALSE(state.unfinished && state.position == goal) << tick;
+    free.step(goal, free_session);
+    EXPECT_TRUE(tick % 20 < 19 || (state.position - free.state().position).norm() < 1e-6) << tick;
+  }
+  EXPECT_GT(unfinished, 0);
 }
 
 /// A tick's last slide can leave the ball off the edge's curve, with the straight way on to the goal free.
