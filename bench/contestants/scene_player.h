@@ -28,7 +28,7 @@ concept PlayableScene = std::movable<S> &&
     requires(S& scene, const S& asked, std::uint32_t body, const Pose& pose, const Probe& probe, double reach,
              typename S::Session& session) {
   requires std::default_initializable<typename S::Session>;
-  { session.work } -> std::same_as<Work&>;
+  { session.work } -> std::convertible_to<Work&>;
   { scene.place(body, pose) } -> std::same_as<void>;
   { asked.nearest_body(probe, reach, session) } -> std::same_as<std::optional<BodyContact>>;
   { asked.bytes() } -> std::same_as<std::size_t>;
