@@ -1,6 +1,7 @@
-/// The queries of a haptic point over a hierarchy, each in a file of its name. All look, even where it is
-/// known to be clear (memory.h). A radius or reach must be at least 0. What is remembered changes the cost of
-/// an answer, never the answer. `work` counts.
+/// The queries of a haptic point over a hierarchy. What is remembered changes the cost of an answer, never
+/// the answer. Those that take a session answer any radius and reach, and at once where memory.h can. Those
+/// that take `memory` are each in a file of its name: all look, even where it is known to be clear, a radius
+/// or reach must be at least 0, and `work` counts.
 #pragma once
 
 #include <cstddef>
@@ -56,5 +57,42 @@ struct WithinBudget {
 };
 WithinBudget nearest_within_budget(const Surface& surface, const Vec3& center, double reach,
                                    PointMemory& memory, LimitedWork& work) noexcept;
+
+// Inline as far as what is known without a look: there a query is a few comparisons, less than a call.
+[[gnu::always_inline]] inline bool touches(const Surface& surface, const Probe& probe,
+                                           Session& session) noexcept {
+  if (is_clear_at_once(surface.bvh, probe.center, probe.radius, session.memory)) return false;
+  if (is_touching(surface.bvh, probe.center, probe.radius, session.memory)) return true;
+  if (!(probe.radius >= 0)) return false;
+  session.question = {LastQuestion::Query::touches, probe.radius};
+  return touches(surface, probe, session.memory, session.work);
+}
+/// True if a query for the nearest must look; then it is what is asked.
+[[gnu::always_inline]] inline bool asks_nearest(const Surface& surface, const Probe& probe, double reach,
+                                                Session& session) noexcept {
+  if (is_clear_at_once(surface.bvh, probe.center, reach, session.memory) || !(reach >= 0)) return false;
+  session.question = {LastQuestion::Query::nearest, reach};
+  return true;
+}
+inline std::optional<Contact> nearest(const Surface& surface, const Probe& probe, double reach,
+                                      Session& session) noexcept {
+  if (!asks_nearest(surface, probe, reach, session)) return std::nullopt;
+  return nearest(surface, probe.center, reach, session.memory, session.work);
+}
+/// A ball that holds both ends of a path holds all of it.
+inline std::optional<Impact> first_hit(const Surface& surface, const Sweep& sweep,
+                                       Session& session) noexcept {
+  if (is_clear_at_once(surface.bvh, sweep, session.memory) || !(sweep.radius >= 0)) return std::nullopt;
+  session.question = {LastQuestion::Query::sweep, sweep.radius};
+  return first_hit(surface, sweep, session.memory, session.work);
+}
+inline std::size_t contacts(const Surface& surface, const Probe& probe, double reach, Session& session,
+                            std::span<Contact> into, bool counts_all = true) noexcept {
+  if (is_clear_at_once(surface.bvh, probe.center, reach, session.memory) || !(reach >= 0)) return 0;
+  return contacts(surface, probe.center, reach, session.memory, into, counts_all, session.work);
+}
+inline void prepare(const Surface& surface, Session& session) noexcept {
+  prepare(surface, session.question, session.memory, session.work);
+}
 
 }  // namespace touchmark::queries

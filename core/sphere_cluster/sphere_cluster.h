@@ -46,19 +46,11 @@ class SphereCluster {
   /// become of another size or place.
   void update(const TriangleMesh& mesh);
 
-  // Inline as far as what is known without a look: there a query is a few comparisons, less than a call.
   [[gnu::always_inline]] bool touches(const Probe& probe, Session& session) const noexcept {
-    if (queries::is_clear_at_once(surface_.bvh, probe.center, probe.radius, session.memory)) return false;
-    if (queries::is_touching(surface_.bvh, probe.center, probe.radius, session.memory)) return true;
-    if (!(probe.radius >= 0)) return false;
-    session.question = {LastQuestion::Query::touches, probe.radius};
-    return queries::touches(surface_, probe, session.memory, session.work);
+    return queries::touches(surface_, probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
-    if (queries::is_clear_at_once(surface_.bvh, probe.center, reach, session.memory) || !(reach >= 0))
-      return std::nullopt;
-    session.question = {LastQuestion::Query::nearest, reach};
-    return queries::nearest(surface_, probe.center, reach, session.memory, session.work);
+    return queries::nearest(surface_, probe, reach, session);
   }
   /// Answers likewise for one of many points that are asked again and again. See the concept FollowsPoints.
   std::optional<Contact> nearest(const Probe& probe, double reach, FollowedPoint& followed,
@@ -84,35 +76,24 @@ class SphereCluster {
     return queries::clearance(surface_.bvh, center, session.memory);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
-    if (queries::is_clear_at_once(surface_.bvh, sweep, session.memory) || !(sweep.radius >= 0))
-      return std::nullopt;
-    session.question = {LastQuestion::Query::sweep, sweep.radius};
-    return queries::first_hit(surface_, sweep, session.memory, session.work);
+    return queries::first_hit(surface_, sweep, session);
   }
 
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept {
-    if (queries::is_clear_at_once(surface_.bvh, probe.center, reach, session.memory) || !(reach >= 0))
-      return 0;
-    return queries::contacts(surface_, probe.center, reach, session.memory, into, true, session.work);
+    return queries::contacts(surface_, probe, reach, session, into);
   }
   /// See the concept AnswersNearestContacts.
   std::size_t nearest_contacts(const Probe& probe, double reach, Session& session,
                                std::span<Contact> into) const noexcept {
-    if (queries::is_clear_at_once(surface_.bvh, probe.center, reach, session.memory) || !(reach >= 0))
-      return 0;
-    return std::min(
-        queries::contacts(surface_, probe.center, reach, session.memory, into, false, session.work),
-        into.size());
+    return std::min(queries::contacts(surface_, probe, reach, session, into, false), into.size());
   }
 
   /// Lists, after `nearest`, the leaves near the point for a next tick that moves no farther
   /// than twice as far as this one, and asks the last question again, where the point will be if it goes on
   /// as it moved. The next query then finds its data and its code in the caches, best when this is called
   /// just before the device is read. Work is bounded as that of two queries is.
-  void prepare(Session& session) const noexcept {
-    queries::prepare(surface_, session.question, session.memory, session.work);
-  }
+  void prepare(Session& session) const noexcept { queries::prepare(surface_, session); }
 
   std::size_t bytes() const noexcept { return surface_.bvh.bytes(); }
   bool builds_lazily() const noexcept { return options_.construction == Construction::lazy; }
