@@ -28,6 +28,7 @@
 #include "bench/results/results_csv.h"
 #include "bench/results/steps_file.h"
 #include "bench/results/verification_report.h"
+#include "bench/support/checked.h"
 #include "bench/support/files/standard_output.h"
 #include "bench/workers/timing/cache_lines.h"
 #include "bench/workload/query_name.h"
@@ -54,6 +55,12 @@ struct BenchOptions {
   WorkerSelectors workers;
 };
 
+/// Returns the value of --cold-samples, if it was given. Throws std::invalid_argument.
+std::optional<std::size_t> cold_samples_of(const BenchOptions& options) {
+  if (options.cold_samples.empty()) return std::nullopt;
+  return support::checked_count("--cold-samples", options.cold_samples, 1, 100'000);
+}
+
 /// `rows`: pairs of contestant and trajectory, which share the time for queries with emptied caches.
 measurement::Effort effort_for(const BenchOptions& options, const BenchmarkFlags& flags, std::size_t rows) {
   measurement::Effort effort;
@@ -69,7 +76,7 @@ measurement::Effort effort_for(const BenchOptions& options, const BenchmarkFlags
         (options.quick ? measurement::quick_cold_budget_ns : measurement::usual_cold_budget_ns) /
         static_cast<double>(std::max<std::size_t>(rows, 1));
   }
-  if (!options.cold_samples.empty()) effort.take_all_cold(cold_samples_of(options.cold_samples));
+  if (const std::optional<std::size_t> samples = cold_samples_of(options)) effort.take_all_cold(*samples);
   if (options.cache_lines)
     effort.line_samples = options.quick ? measurement::quick_line_samples : measurement::usual_line_samples;
   if (!options.out.empty() || !options.steps_out.empty())
@@ -284,8 +291,8 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       if (!flags.out.empty()) throw std::invalid_argument("--benchmark_out does not go with --suite");
       if (!context.parts.run_suite) continue_in_extra_program(context);
       context.status = context.parts.run_suite(
-          context, {options->selectors, options->out, options->cells, options->minutes, options->cold_samples,
-                    options->quick, options->workers});
+          context, {options->selectors, options->out, options->cells, options->minutes,
+                    cold_samples_of(*options), options->quick, options->workers});
       return;
     }
     if (options->frontier) {

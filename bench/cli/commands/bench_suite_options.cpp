@@ -5,13 +5,8 @@
 
 #include "bench/cli/extra/bench_suite.h"
 #include "bench/cli/options.h"
-#include "bench/support/checked.h"
 
 namespace touchmark::bench::cli {
-
-std::size_t cold_samples_of(const std::string& text) {
-  return support::checked_count("--cold-samples", text, 1, 100'000);
-}
 
 void add_suite(CLI::App& command, bool& suite, std::string& cells, std::string& minutes) {
   CLI::Option* const flag = command.add_flag(

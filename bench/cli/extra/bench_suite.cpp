@@ -67,8 +67,8 @@ Extent extent_of(const SuiteOptions& options) {
   if (!options.cells.empty()) extent.cells = checked_cells(options.cells);
   if (!options.minutes.empty())
     extent.minutes = support::checked_positive("--minutes", options.minutes, support::Infinity::allowed);
-  if (!options.cold_samples.empty())
-    extent.effort.take_all_cold(cold_samples_of(options.cold_samples));
+  if (options.cold_samples)
+    extent.effort.take_all_cold(*options.cold_samples);
   else if (!options.quick)
     extent.effort.take_all_cold(usual_cold_samples);
   return extent;

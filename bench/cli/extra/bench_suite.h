@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "bench/cli/program.h"
@@ -18,18 +19,15 @@ namespace touchmark::bench::cli {
 struct SuiteOptions {
   contestants::Selectors selectors;
   std::string out;
-  std::string cells;         ///< a mesh; empty: by the effort
-  std::string minutes;       ///< at most, about; empty: all cells, however long they take
-  std::string cold_samples;  ///< empty: by the effort
+  std::string cells;                        ///< a mesh; empty: by the effort
+  std::string minutes;                      ///< at most, about; empty: all cells, however long they take
+  std::optional<std::size_t> cold_samples;  ///< none: by the effort
   bool quick = false;
   WorkerSelectors workers;
 };
 
 /// An exit status. Throws std::invalid_argument, MeshError or ResourceError.
 int run_suite(const ProgramContext& context, const SuiteOptions& options);
-
-/// Returns the value of --cold-samples. Throws std::invalid_argument.
-std::size_t cold_samples_of(const std::string& text);
 
 /// Adds --suite and the options that go with it alone.
 void add_suite(CLI::App& command, bool& suite, std::string& cells, std::string& minutes);
