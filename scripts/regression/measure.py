@@ -70,18 +70,17 @@ def read_dump(path):
     return (case, total) if case and total else None
 
 
-def instructions(driver, plugins, agains=None):
+def instructions(driver, plugins):
     """One dictionary a plug-in: case to instructions of one replay."""
     if shutil.which("valgrind") is None:
         raise NoResources("valgrind is missing, which counts instructions: run scripts/setup develop")
-    agains = agains or [0] * len(plugins)
     with tempfile.TemporaryDirectory() as folder:
         outs = [pathlib.Path(folder) / str(i) for i in range(len(plugins))]
         for out in outs:
             out.mkdir()
         together([["valgrind", "--tool=callgrind", "--instr-atstart=no", f"--callgrind-out-file={out}/dump", driver,
-                   "instructions", "--plugin", plugin, "--again", str(again)]
-                  for plugin, out, again in zip(plugins, outs, agains)], "the instructions could not be counted")
+                   "instructions", "--plugin", plugin]
+                  for plugin, out in zip(plugins, outs)], "the instructions could not be counted")
         return [dict(filter(None, map(read_dump, sorted(out.iterdir())))) for out in outs]
 
 
@@ -95,10 +94,9 @@ def read_times(path):
     return {case: numpy.array(list(sittings.values())) for case, sittings in rows.items()}
 
 
-def times(driver, plugins, out, seed, cases=(), sittings=6, rounds=25, base_again=0.0, head_again=0.0):
+def times(driver, plugins, out, seed, cases=()):
     """plugins: base, control, head. The rounds stay in the file `out`."""
-    command = [driver, "times", "--out", out, "--seed", str(seed), "--sittings", str(sittings), "--rounds", str(rounds),
-               "--base-again", str(base_again), "--head-again", str(head_again)]
+    command = [driver, "times", "--out", out, "--seed", str(seed)]
     for name, plugin in zip(PLUGINS, plugins):
         command += [f"--{name}", plugin]
     for case in cases:

@@ -73,11 +73,13 @@ std::vector<Group> timed_groups(const std::vector<std::string>& only, Workloads&
   return groups;
 }
 
+constexpr std::size_t sittings = 6;  ///< how often detectors are built anew, so that memory lies elsewhere
+constexpr std::size_t rounds = 25;   ///< in each sitting: every plug-in once, in random order
+
 class Sitting {
  public:
-  Sitting(const std::array<PluginLibrary, 3>& plugins, const std::array<double, 3>& again,
-          support::Random& random)
-      : plugins_(plugins), again_(again), random_(random) {}
+  Sitting(const std::array<PluginLibrary, 3>& plugins, support::Random& random)
+      : plugins_(plugins), random_(random) {}
 
   /// False when one of the plug-ins refuses.
   bool build(const char* detector, const TouchmarkGateMesh& mesh) {
@@ -95,11 +97,9 @@ class Sitting {
   std::array<double, 3> round(const TouchmarkGatePass& pass) {
     std::array<double, 3> ns = {};
     for (const auto& [_, i] : support::interleaved({3}, random_)) {
-      TouchmarkGatePass mine = pass;
-      (void)plugins_[i].replay(detectors_[i], mine);
-      mine.again = again_[i];
+      (void)plugins_[i].replay(detectors_[i], pass);
       const double before = support::processor_ns();
-      (void)plugins_[i].replay(detectors_[i], mine);
+      (void)plugins_[i].replay(detectors_[i], pass);
       ns[i] = support::processor_ns() - before;
     }
     return ns;
@@ -107,7 +107,6 @@ class Sitting {
 
  private:
   const std::array<PluginLibrary, 3>& plugins_;
-  const std::array<double, 3>& again_;
   support::Random& random_;
   std::array<PluginLibrary::Detector, 3> detectors_;
 };
@@ -125,7 +124,7 @@ void write_answers(const std::string& plugin, const std::string& out, bool gener
   file.commit();
 }
 
-void count_instructions(const std::string& plugin, double again) {
+void count_instructions(const std::string& plugin) {
 #if TOUCHMARK_HAS_CALLGRIND
   const PluginLibrary library(plugin);
   Workloads workloads;
@@ -139,8 +138,7 @@ void count_instructions(const std::string& plugin, double again) {
     }
     for (const Case& asked : group) {
       const std::string name = asked.name();  // the dump takes it when it is made
-      TouchmarkGatePass pass = workloads.of(asked).pass;
-      pass.again = again;
+      const TouchmarkGatePass pass = workloads.of(asked).pass;
       CALLGRIND_START_INSTRUMENTATION;
       CALLGRIND_ZERO_STATS;
       (void)library.replay(detector, pass);
@@ -149,7 +147,7 @@ void count_instructions(const std::string& plugin, double again) {
     }
   }
 #else
-  (void)plugin, (void)again;
+  (void)plugin;
   throw support::ResourceError("built without valgrind's headers: install valgrind and build again");
 #endif
 }
@@ -157,19 +155,18 @@ void count_instructions(const std::string& plugin, double again) {
 void write_times(const Timing& timing, const std::string& out) {
   const std::array<PluginLibrary, 3> plugins = {PluginLibrary(timing.base), PluginLibrary(timing.control),
                                                 PluginLibrary(timing.head)};
-  const std::array<double, 3> again = {timing.base_again, timing.base_again, timing.head_again};
   Workloads workloads;
   const std::vector<Group> groups = timed_groups(timing.only, workloads);
   support::Random random(timing.seed);
   support::AtomicFile file(out);
   file.write("case,sitting,round,base_ns,control_ns,head_ns\n");
-  for (std::size_t sitting = 0; sitting < timing.sittings; ++sitting) {
+  for (std::size_t sitting = 0; sitting < sittings; ++sitting) {
     for (const Group& group : groups) {
-      Sitting now(plugins, again, random);
+      Sitting now(plugins, random);
       if (!now.build(group.front().detector, workloads.of(group.front()).mesh)) continue;
       for (const Case& asked : group) {
         const Workload workload = workloads.of(asked);
-        for (std::size_t round = 0; round < timing.rounds; ++round) {
+        for (std::size_t round = 0; round < rounds; ++round) {
           const auto ns = now.round(workload.pass);
           file.write(
               fmt::format("\"{}\",{},{},{},{},{}\n", asked.name(), sitting, round, ns[0], ns[1], ns[2]));

@@ -2,7 +2,6 @@
 /// complete, and throws as the program's commands do (bench/support/failures.h).
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -16,16 +15,12 @@ void write_answers(const std::string& plugin, const std::string& out, bool gener
 /// One replay of every timed case with instructions counted, for valgrind --tool=callgrind
 /// --instr-atstart=no: a dump for each case, named after it. Throws ResourceError when built without
 /// valgrind's headers.
-void count_instructions(const std::string& plugin, double again);
+void count_instructions(const std::string& plugin);
 
 struct Timing {
   std::string base, control, head;  ///< plug-ins; control is a copy of base under another name
   std::vector<std::string> only;    ///< names of cases; empty: all timed ones
   std::uint64_t seed = 1;           ///< for the random order
-  std::size_t sittings = 6;         ///< how often detectors are built anew, so that memory lies elsewhere
-  std::size_t rounds = 25;          ///< in each sitting: every plug-in once, in random order
-  double base_again = 0;            ///< slows base and control down; see TouchmarkGatePass
-  double head_again = 0;
 };
 
 /// case,sitting,round,base_ns,control_ns,head_ns: processor time of a pass. Cases that a plug-in refuses are

@@ -26,10 +26,6 @@ void list_cases() {
     fmt::print("{}{}\n", listed.name(), listed.timed ? "" : " (not timed)");
 }
 
-void add_share(CLI::App& command, const std::string& flag, double& share, const std::string& what) {
-  command.add_option(flag, share, what)->check(CLI::Range(0., 1.));
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -39,7 +35,6 @@ int main(int argc, char** argv) {
   program.footer(
       "Example: touchmark-regression answers --plugin build/regress/head/plugin.so --out answers.csv\n");
   std::string plugin, out;
-  double again = 0;
   regression::driver::Timing timing;
 
   program.add_subcommand("list", "the pinned cases")->callback(list_cases);
@@ -53,8 +48,7 @@ int main(int argc, char** argv) {
 
   auto* const instructions = program.add_subcommand("instructions", "under callgrind: a dump for every case");
   instructions->add_option("--plugin", plugin)->required();
-  add_share(*instructions, "--again", again, "share of the steps to ask twice");
-  instructions->callback([&] { regression::driver::count_instructions(plugin, again); });
+  instructions->callback([&] { regression::driver::count_instructions(plugin); });
 
   auto* const times = program.add_subcommand("times", "three builds in one process, in random order");
   times->add_option("--base", timing.base)->required();
@@ -62,10 +56,6 @@ int main(int argc, char** argv) {
   times->add_option("--head", timing.head)->required();
   times->add_option("--case", timing.only, "only these");
   times->add_option("--seed", timing.seed);
-  times->add_option("--sittings", timing.sittings);
-  times->add_option("--rounds", timing.rounds);
-  add_share(*times, "--base-again", timing.base_again, "share of the steps that base and control ask twice");
-  add_share(*times, "--head-again", timing.head_again, "share of the steps that head asks twice");
   times->add_option("--out", out)->required();
   times->callback([&] { regression::driver::write_times(timing, out); });
 

@@ -2,9 +2,7 @@
 // compared.
 #include "bench/regression/driver/plugin.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -116,47 +114,29 @@ class DetectorOf final : public TouchmarkGateDetector {
   TouchmarkGateResult run(const TouchmarkGatePass& pass) const {
     Session session;
     Hash hash;
-    ask(pass, 0, pass.count, session, hash);
+    ask(pass, session, hash);
     const touchmark::Work& work = session.work;
-    TouchmarkGateResult result = {work.cells,     work.spheres, work.boxes,
-                                  work.triangles, hash.value(), hash.details()};
-    if (pass.again > 0) ask_again(pass);
-    return result;
+    return {work.cells, work.spheres, work.boxes, work.triangles, hash.value(), hash.details()};
   }
 
   template <class Hash>
-  void ask(const TouchmarkGatePass& pass, std::size_t begin, std::size_t end, Session& session,
-           Hash& hash) const noexcept {
+  void ask(const TouchmarkGatePass& pass, Session& session, Hash& hash) const noexcept {
     switch (pass.query) {
       case touchmark_gate_touches:
-        for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t i = 0; i < pass.count; ++i)
           hash.add(detector_.touches(Probe{center_of(pass, i), pass.radius}, session));
         return;
       case touchmark_gate_nearest:
-        for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t i = 0; i < pass.count; ++i)
           hash.add(detector_.nearest(Probe{center_of(pass, i), pass.radius}, pass.reach, session));
         return;
       case touchmark_gate_sweep:
-        for (std::size_t i = begin; i < end; ++i) {
+        for (std::size_t i = 0; i < pass.count; ++i) {
           const Vec3 from = center_of(pass, i > 0 ? i - 1 : 0);
           hash.add(detector_.first_hit(touchmark::Sweep{from, center_of(pass, i), pass.radius}, session));
         }
         return;
     }
-  }
-
-  void ask_again(const TouchmarkGatePass& pass) const noexcept {
-    const double share = std::min(pass.again, 1.);
-    // Shorter than 20 steps where the pass is: a share of it must remain one.
-    const double run = std::clamp(std::floor(share * static_cast<double>(pass.count)), 1., 20.);
-    const auto run_length = static_cast<std::size_t>(run);
-    const auto period = static_cast<std::size_t>(run / share + 0.5);
-    Session session;
-    Answers hash;
-    for (std::size_t begin = 0; begin < pass.count; begin += period)
-      ask(pass, begin, std::min(begin + run_length, pass.count), session, hash);
-    [[maybe_unused]] static volatile std::uint64_t kept;  // so that the work is not optimised away
-    kept = hash.value();
   }
 
   D detector_;

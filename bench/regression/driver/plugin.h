@@ -27,9 +27,6 @@ struct TouchmarkGatePass {
   std::size_t count;
   double radius;
   double reach;  ///< for `nearest`
-  /// What the gate's own trials slow a build down with: this share of the steps is asked a second time, in
-  /// short runs spread over the trajectory, with a session of their own whose work is not counted. 0: none.
-  double again;
 };
 
 /// What a pass gives; equal on every machine for equal meshes and passes.

@@ -74,7 +74,7 @@ Workload Workloads::of(const Case& asked) {
   Workload workload;
   workload.mesh = {loaded.vertices.data(), loaded.vertices.size() / 3, loaded.triangles.data(),
                    loaded.triangles.size() / 3};
-  workload.pass = {asked.query, centers.data(), centers.size() / 3, radius, radius, 0};
+  workload.pass = {asked.query, centers.data(), centers.size() / 3, radius, radius};
   workload.inputs = fingerprint(workload);
   return workload;
 }
