@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scripts/report-table and scripts/busy-trials on made results."""
+"""scripts/report-table on made results."""
 import csv
 import pathlib
 import subprocess
@@ -13,26 +13,6 @@ ROW = {"schema": 1, "run_id": "r", "detector": "a", "options": "", "mesh": "m", 
        "malformed": 0, "max_distance_error": 0, "status": "ok", "ns_per_query": 5000, "ns_p50": 90, "ns_p90": 100,
        "ns_p99": 200, "ns_p999": 400, "ns_max": 9000, "update_rate_hz": 2e5, "ns_undisturbed": 100,
        "ns_undisturbed_low": 98, "ns_undisturbed_high": 103, "disturbed_share": 0.1}
-
-# Says of "a" what it always takes, and of "b" what depends on the number of the run.
-BENCH = """#!/usr/bin/python3
-import csv, json, pathlib, sys
-folder = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
-count = pathlib.Path(COUNT)
-number = int(count.read_text()) if count.exists() else 0
-count.write_text(str(number + 1))
-rows = [dict(detector="a", options="", trajectory="slide", guarantee="exact", ns_undisturbed=100, ns_undisturbed_low=99,
-             ns_undisturbed_high=101, ns_per_query=900 if number % 2 else 100, disturbed_share=0),
-        dict(detector="b", options="x=1", trajectory="slide", guarantee="exact", ns_undisturbed=[OTHER][number % 4],
-             ns_undisturbed_low=99, ns_undisturbed_high=101, ns_per_query=150, disturbed_share=0)]
-with open(folder / "results.csv", "w", newline="") as file:
-    writer = csv.DictWriter(file, rows[0])
-    writer.writeheader()
-    writer.writerows(rows)
-about = {"steadiness": [{"trajectory": "slide", "conclusive": number != INCONCLUSIVE, "control": {"ratio": 1}}]}
-(folder / "run.json").write_text(json.dumps(about))
-sys.exit(STATUS)
-"""
 
 
 def cells(line):
@@ -93,36 +73,6 @@ class ReportTable(unittest.TestCase):
             self.assertEqual(done.returncode, 2)
             self.assertIn(text, done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1)
-
-
-class BusyTrials(unittest.TestCase):
-    def trials(self, other, inconclusive=-1, status=0):
-        with tempfile.TemporaryDirectory() as folder:
-            program = pathlib.Path(folder) / "touchmark"
-            text = BENCH.replace("OTHER", other).replace("INCONCLUSIVE", str(inconclusive)).replace("STATUS", str(status))
-            program.write_text(text.replace("COUNT", repr(folder + "/count")))
-            program.chmod(0o755)
-            return subprocess.run([SCRIPTS / "busy-trials", "--program", program, "--runs", "2", "--busy", "0,1", "--out",
-                                   folder + "/trials.csv"], capture_output=True, text=True, check=False)
-
-    def test_counts_the_runs_that_agree(self):
-        done = self.trials("130, 130, 130, 130")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        rows = [cells(line)[:5] for line in done.stdout.splitlines()[2:]]
-        self.assertEqual(rows, [["0", "2", "2", "0", "2"], ["1", "2", "2", "0", "0"]])
-
-    def test_finds_the_run_that_turns_the_order_over(self):
-        done = self.trials("130, 90, 130, 130")
-        self.assertEqual(done.returncode, 1, done.stderr)
-        rows = [cells(line)[:4] for line in done.stdout.splitlines()[2:]]
-        self.assertEqual(rows, [["0", "2", "2", "0"], ["1", "2", "1", "0"]])
-        self.assertIn("beside 1, run 1: slide: b:x=1 fastest, not a", done.stderr)
-
-    def test_counts_the_inconclusive_ones_and_says_why_there_are_none(self):
-        self.assertEqual(self.trials("130, 130, 130, 130", inconclusive=2).returncode, 1)
-        done = self.trials("130, 130, 130, 130", status=2)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("run 1 beside 0", done.stderr.splitlines()[-1])
 
 
 if __name__ == "__main__":
