@@ -54,7 +54,7 @@ bool close_triangles(const Surface& surface, const Vec3& center, double reach, d
 WithinBudget nearest_within_budget(const Surface& surface, const Vec3& center, double reach,
                                    PointMemory& memory, LimitedWork& work) noexcept {
   bool is_exhausted = false;
-  const auto exhausted = [&]() -> std::optional<Contact> {
+  const auto exhausted = [&](const Surface&, const Vec3&, double, Work&) -> std::optional<Contact> {
     is_exhausted = true;
     return std::nullopt;
   };

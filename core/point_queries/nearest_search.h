@@ -26,19 +26,21 @@ namespace {
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
 /// Shows the visitor all that can be nearest if the surface knows that of places near the triangle in a slot.
-/// Returns what traverse does, or what `otherwise()` does.
-template <class Kind, class Otherwise>
-[[gnu::always_inline]] inline float search_from(const Kind& surface, std::uint32_t slot,
-                                                const FilterPoint& point, NearestVisitor& visitor,
-                                                const Otherwise& otherwise) noexcept {
+/// Then `unseen` is what traverse returns. Returns false where it is not known.
+template <class Kind>
+[[gnu::always_inline]] inline bool search_from(const Kind& surface, std::uint32_t slot,
+                                               const FilterPoint& point, NearestVisitor& visitor,
+                                               float& unseen) noexcept {
   if constexpr (requires { surface.all_near(slot, point); }) {
     ++visitor.work.cells;
-    if (const std::span<const bvh::ChildRef> blocks = surface.all_near(slot, point); !blocks.empty())
-      return bvh::with_isa(surface.bvh.simd(), [&](auto isa) {
-        return isa.search_blocks(surface.bvh.parts(), point, blocks, visitor);
-      });
+    const std::span<const bvh::ChildRef> blocks = surface.all_near(slot, point);
+    if (blocks.empty()) return false;
+    unseen = bvh::with_isa(surface.bvh.simd(), [&](auto isa) {
+      return isa.search_blocks(surface.bvh.parts(), point, blocks, visitor);
+    });
+    return true;
   }
-  return otherwise();
+  return false;
 }
 
 /// Searches in the order of docs/algorithms/sphere-cluster.md, "nearest". Returns what one of the functions
@@ -69,15 +71,15 @@ template <class Kind, class Ends>
   float unseen = 0;
   if (near) {
     bvh::visit(bvh, memory.slot, visitor);
-    unseen = search_from(surface, memory.slot, point, visitor,
-                         [&] { return search_near(bvh, point, visitor, memory, budget); });
+    if (!search_from(surface, memory.slot, point, visitor, unseen))
+      unseen = search_near(bvh, point, visitor, memory, budget);
   } else {
     const double farthest = sampled_distance(bvh, point);
     if (farthest < reach) visitor.limit = bvh.frame().limit((farthest + error) * (farthest + error));
-    const auto descend = [&] { return bvh::traverse(bvh, point, visitor, budget); };
     std::uint32_t guess = nowhere;
     if constexpr (requires { surface.guess(center); }) guess = surface.guess(center);
-    unseen = guess == nowhere ? descend() : search_from(surface, guess, point, visitor, descend);
+    if (guess == nowhere || !search_from(surface, guess, point, visitor, unseen))
+      unseen = bvh::traverse(bvh, point, visitor, budget);
   }
   if (unseen == bvh::exhausted) {
     work += visitor.work;
@@ -151,12 +153,16 @@ struct ContactEnds {
   PointMemory& memory;
   Work& work;
   std::uint64_t budget;
-  const Exhausted& exhausted;
+  Exhausted when_exhausted;
 
   static constexpr bool names_all = false;
   static std::optional<Contact> nothing() noexcept { return std::nullopt; }
-  std::optional<Contact> without() const noexcept {
+  // Always inline, as all that reads a member, so that none is stored.
+  [[gnu::always_inline]] std::optional<Contact> without() const noexcept {
     return nearest_of_every(surface.bvh, center, reach, work);
+  }
+  [[gnu::always_inline]] std::optional<Contact> exhausted() const noexcept {
+    return when_exhausted(surface, center, reach, work);
   }
   [[gnu::always_inline]] std::optional<Contact> found(const NearestVisitor& visitor, double error,
                                                       double distance) const noexcept {
@@ -171,7 +177,7 @@ template <class Kind, class Exhausted>
 [[gnu::always_inline]] inline std::optional<Contact> nearest_searched(const Kind& surface, const Vec3& center,
                                                                       double reach, PointMemory& memory,
                                                                       Work& work, std::uint64_t budget,
-                                                                      const Exhausted& exhausted) noexcept {
+                                                                      const Exhausted exhausted) noexcept {
   return search_nearest(
       surface, center, reach, memory, work, budget,
       ContactEnds<Kind, Exhausted>{surface, center, reach, memory, work, budget, exhausted});
@@ -191,12 +197,12 @@ bool search_around(const WideBvh& bvh, double reach, double error, NearestVisito
          search_listed(bvh, reach, error, around, visitor);
 }
 
-/// Looks at those listed around the point, else searches. `exhausted()` answers where that takes more than
-/// the budget.
+/// Looks at those listed around the point, else searches. `exhausted(surface, center, reach, work)` answers
+/// where that takes more than the budget.
 template <class Kind, class Exhausted>
 [[gnu::noinline]] std::optional<Contact> nearest_around(const Kind& surface, const Vec3& center, double reach,
                                                         PointMemory& memory, Work& work, std::uint64_t budget,
-                                                        const Exhausted& exhausted) noexcept {
+                                                        const Exhausted exhausted) noexcept {
   const WideBvh& bvh = surface.bvh;
   const FilterPoint point = bvh.frame().point(center);
   const double error = bvh.frame().kernel_error(point.plane_error);
@@ -225,12 +231,13 @@ template <class Kind, class Exhausted>
 [[gnu::always_inline]] inline std::optional<Contact> nearest_of(const Kind& surface, const Vec3& center,
                                                                 double reach, PointMemory& memory, Work& work,
                                                                 std::uint64_t budget,
-                                                                const Exhausted& exhausted) noexcept {
+                                                                const Exhausted exhausted) noexcept {
   const WideBvh& bvh = surface.bvh;
   if (!memory.is_kept || memory.epoch != bvh.epoch())
     return nearest_searched(surface, center, reach, memory, work, budget, exhausted);
   prefetch_lines(&memory, sizeof(bvh::KeptNearest));
-  const auto look_around = [&] {
+  // By value: where nothing is kept, nothing of this is stored.
+  const auto look_around = [&surface, &center, reach, &memory, &work, budget, exhausted] {
     return nearest_around(surface, center, reach, memory, work, budget, exhausted);
   };
   return bvh::with_isa(bvh.simd(), [&](auto isa) {
@@ -244,8 +251,8 @@ template <class Kind>
 [[gnu::always_inline]] inline std::optional<Contact> nearest_over(const Kind& surface, const Vec3& center,
                                                                   double reach, PointMemory& memory,
                                                                   Work& work) noexcept {
-  const auto exhausted = [&] {
-    return scan_of(surface.bvh, surface.certified, work).nearest(center, reach, work);
+  const auto exhausted = [](const Kind& all, const Vec3& at, double as_far, Work& spent) {
+    return scan_of(all.bvh, all.certified, spent).nearest(at, as_far, spent);
   };
   return nearest_of(surface, center, reach, memory, work, max_nearest_work(surface.bvh), exhausted);
 }

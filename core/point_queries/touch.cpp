@@ -126,6 +126,13 @@ struct TouchVisitor {
   return true;
 }
 
+/// Not inline: a copy of the planes aligns the stack, which costs whoever calls.
+[[gnu::noinline]] void remember_touched(const WideBvh& bvh, std::uint32_t slot,
+                                        PointMemory& memory) noexcept {
+  memory.slot = memory.touched_slot = slot;
+  memory.touched = bvh.parts().blocks[slot / bvh::width].planes(slot % bvh::width);
+}
+
 }  // namespace
 
 bool touches(const Surface& surface, const Probe& probe, PointMemory& memory, LimitedWork& work) noexcept {
@@ -165,9 +172,7 @@ bool touches(const Surface& surface, const Probe& probe, PointMemory& memory, Li
     return false;
   }
   memory.remember(center, 0, visitor.least);
-  memory.slot = visitor.kept_at;
-  memory.touched = bvh.parts().blocks[memory.slot / bvh::width].planes(memory.slot % bvh::width);
-  memory.touched_slot = memory.slot;
+  remember_touched(bvh, visitor.kept_at, memory);
   return true;
 }
 
