@@ -44,10 +44,6 @@ def plain(value):
     return f"{value:,.0f}" if value >= 100 else f"{value:.10f}".rstrip("0").rstrip(".") if value < 1e-4 else f"{value:g}"
 
 
-def times(ratio):
-    return f"{ratio:,.3g}×" if ratio < 1000 else f"{ratio:,.0f}×"
-
-
 def log_axis(axis, low, high, written):
     """Logarithmic from low to high; labelled at 1, 2, 5 where a decade has room for them, evenly within less than one."""
     from matplotlib import ticker

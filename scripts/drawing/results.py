@@ -8,14 +8,11 @@ TEXT_COLUMNS = ["detector", "options", "mesh", "trajectory", "query", "guarantee
 NUMBER_COLUMNS = ["triangles", "steps", "radius", "missed", "false_contacts", "wrong_triangle", "unresolved", "beyond_bound",
                   "wrong_point", "wrong_normal", "malformed", "max_distance_error", "ns_p50", "ns_p90", "ns_p99", "ns_p999",
                   "ns_max", "update_rate_hz"]
-OPTIONAL_NUMBERS = ["ns_per_query", "ns_per_query_mad", "repetitions", "max_distance_error_of_diagonal", "build_ms",
-                    "first_answer_ms", "bytes", "stored_missed", "stored_false_contacts",
-                    "stored_max_distance_error_of_diagonal", "clock_cost_ns", "ns_undisturbed", "ns_undisturbed_low",
-                    "ns_undisturbed_high", "disturbed_share", "beyond_tolerance", "rounding", "cold_l2_ns_p50", "cold_ns_p50",
-                    "cold_ns_p99"]
+OPTIONAL_NUMBERS = ["ns_per_query", "max_distance_error_of_diagonal", "build_ms", "first_answer_ms", "bytes", "stored_missed",
+                    "stored_false_contacts", "stored_max_distance_error_of_diagonal", "clock_cost_ns", "ns_undisturbed",
+                    "disturbed_share", "beyond_tolerance", "rounding", "cold_l2_ns_p50", "cold_ns_p50", "cold_ns_p99"]
 MAY_BE_INFINITE = ["radius", "max_distance_error", "max_distance_error_of_diagonal",
                    "stored_max_distance_error_of_diagonal"]
-OPTIONAL_TEXTS = ["answers_checksum"]
 DONE = "ok"
 
 
@@ -45,7 +42,7 @@ class Row(Record):
     """One row of results.csv."""
 
     def __init__(self, record, line):
-        super().__init__(record, line, TEXT_COLUMNS + OPTIONAL_TEXTS, NUMBER_COLUMNS + OPTIONAL_NUMBERS)
+        super().__init__(record, line, TEXT_COLUMNS, NUMBER_COLUMNS + OPTIONAL_NUMBERS)
         self.name = self.detector + (":" + self.options if self.options else "")
         self.done = self.status == DONE
         if math.isnan(self.ns_per_query) and self.update_rate_hz > 0:
@@ -54,10 +51,8 @@ class Row(Record):
 
     def take_undisturbed(self):
         """Where it is known, the time that other work on the machine does not move is the one that is compared."""
-        self.low = self.high = math.nan
         if self.ns_undisturbed > 0:
             self.ns_per_query, self.update_rate_hz = self.ns_undisturbed, 1e9 / self.ns_undisturbed
-            self.low, self.high = self.ns_undisturbed_low, self.ns_undisturbed_high
 
     @property
     def scene(self):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scripts/plot on several made-up runs: mesh sizes, groups, history, A against B; and what the pictures share."""
+"""scripts/plot on several made-up runs: mesh sizes, groups; and what the pictures share."""
 import csv
 import json
 import math
@@ -13,7 +13,7 @@ SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(SCRIPTS))
 
-from drawing import comparison, detectors, history, layout, results, servo, sizes  # noqa: E402
+from drawing import detectors, layout, results, servo, sizes  # noqa: E402
 
 ROW = {
     "detector": "grid-group", "options": "", "mesh": "bunny", "triangles": 69666, "trajectory": "slide", "query": "nearest",
@@ -181,133 +181,6 @@ class Groups(Folders):
         folder = self.run_of("a", row(f"{self.SCAN},groups=10"))
         self.assertIn("groups: left out: no detector grid-group:lookup=scan,groups=N with several N",
                       self.plot(folder, "--only", "groups"))
-
-
-class History(Folders):
-    def record(self, day, *rows, cpu="x"):
-        return self.run_of(f"machine/2026-01-{day:02}-beef", *rows, about={"date": f"2026-01-{day:02}", "cpu": cpu})
-
-    def test_is_drawn_from_a_machines_folder(self):
-        for day in (1, 2, 3):
-            self.record(day, row(ns=100 * day), row("aabb-tree", ns=200), row("fcl", ns=400))
-        self.assertIn("mesh_size: left out", self.plot(self.directory / "machine"))
-        self.assertEqual(sorted(path.name for path in self.out.iterdir()), ["history.png", "history.svg"])
-        picture = self.picture("history")
-        for text in ("over that of aabb-tree in the same run", "3 recordings", "2026-01-02-beef", "fcl"):
-            self.assertIn(text, picture)
-
-    def test_goes_by_the_reference_that_is_asked_for(self):
-        folders = [self.record(day, row(), row("aabb-tree"), row("fcl")) for day in (1, 2)]
-        self.plot(*folders, "--only", "history", "--reference", "fcl")
-        self.assertIn("over that of fcl in the same run", self.picture("history"))
-
-    def test_refuses_a_reference_that_is_not_everywhere(self):
-        self.record(1, row(), row("fcl"))
-        self.record(2, row())
-        self.assertIn("--reference fcl: not timed in every recording",
-                      self.refusal(self.directory / "machine", "--reference", "fcl"))
-
-    def test_is_left_out_without_a_common_reference(self):
-        self.record(1, row())
-        self.record(2, row())
-        self.assertIn("history: left out: the recordings share no detector to compare with",
-                      self.plot(self.directory / "machine"))
-
-    def test_never_spans_two_machines(self):
-        for day, cpu in ((1, "y"), (2, "z")):
-            self.record(day, row(), row("fcl"), cpu=cpu)
-        self.assertIn("history: left out: no scene was recorded twice on one machine", self.plot(self.directory / "machine"))
-        self.record(3, row(), row("fcl"), cpu="z")
-        self.plot(self.directory / "machine")
-        self.assertIn("2 recordings, z", self.picture("history"))
-
-    def test_shows_p999_beside_the_mean(self):
-        for day in (1, 2):
-            self.record(day, row(), row("embree"))
-        self.plot(self.directory / "machine")
-        picture = self.picture("history")
-        for text in ("<!-- mean -->", "<!-- 99.9 % of the steps -->", "known for the mean only"):
-            self.assertEqual(picture.count(text), 1, text)
-        self.assertNotIn("none: below", picture)
-
-    def test_says_why_a_detector_has_no_p999(self):
-        for day in (1, 2):
-            self.record(day, row(), row("brute-force", steps=16, ns_p999=""), row("embree"))
-        self.plot(self.directory / "machine")
-        picture = self.picture("history")
-        self.assertEqual(picture.count("<!-- none: below 1,000 steps -->"), 1)
-        self.assertIn("no mark at 99.9 %", picture)
-
-    def test_ratio_of_p999_is_absent_where_either_is(self):
-        mine, reference, short = (results.Row(row(ns_p999=ns), 2) for ns in (300, 200, ""))
-        self.assertEqual(history.p999_ratio(mine, reference), 1.5)
-        self.assertTrue(math.isnan(history.p999_ratio(mine, short)))
-        self.assertTrue(math.isnan(history.p999_ratio(short, reference)))
-
-    def test_breaks_the_line_where_p999_is_absent(self):
-        figure, axes = layout.load_pyplot().subplots()
-        self.addCleanup(layout.load_pyplot().close, figure)
-        history.draw_panel(axes, {"slide": [(0, 0.5, 0.0), (1, math.nan, 0.0), (2, 0.8, 0.0)]}, ["slide"], "black")
-        first, absent, last = axes.lines[0].get_ydata()
-        self.assertEqual((first, last), (0.5, 0.8))
-        self.assertTrue(math.isnan(absent))
-        self.assertGreater(axes.get_ylim()[0], 0.4)
-
-    def test_ratio_is_that_of_one_run(self):
-        mine, reference = (results.Row(row(ns=ns), 2) for ns in (300, 200))
-        value, error = history.ratio(mine, {"slide": reference})
-        self.assertEqual(value, 1.5)
-        self.assertAlmostEqual(error, 1.253 * 1.483 / 3 * ((1 / 300) ** 2 + (1 / 200) ** 2) ** 0.5)
-        self.assertIsNone(history.ratio(mine, {}))
-
-
-class Comparison(Folders):
-    def test_shows_each_row_of_b_over_that_of_a(self):
-        a = self.run_of("a", row(ns=100), row("fcl", ns=400), row("embree"))
-        b = self.run_of("b", row(ns=50, answers_checksum="2e"), row("fcl", ns=404), row("bullet", ns_per_query="", update_rate_hz="", status="timeout"))
-        (b / "results.csv").rename(b / "after.csv")
-        self.assertEqual(self.plot("--compare", a, b / "after.csv"), f"{self.out}/comparison.png\n")
-        picture = self.picture("comparison")
-        for text in ("A: a, B: after", "0.5×  other answers", "1.01×", "not in B", "not in A; B: timeout"):
-            self.assertIn(text, picture)
-
-    def test_takes_out_what_the_reference_shares(self):
-        a = self.run_of("a", row(ns=100), row("fcl", ns=400))
-        b = self.run_of("b", row(ns=300), row("fcl", ns=800))
-        self.plot("--compare", a, b, "--reference", "fcl")
-        self.assertIn("1.5×", self.picture("comparison"))
-
-    def test_shows_p999_beside_the_mean_where_both_have_it(self):
-        a = self.run_of("a", row(ns=100, ns_p999=400), row("fcl", ns_p999=500), row("embree", ns_p999=""))
-        b = self.run_of("b", row(ns=45, ns_p999=920), row("fcl", ns_p999=""), row("embree", ns_p999=600))
-        self.plot("--compare", a, b)
-        picture = self.picture("comparison")
-        self.assertEqual([picture.count(f"<!-- {text} -->") for text in ("0.45×", "2.3×", "no 99.9 %")], [1, 1, 2])
-        self.assertIn("what 99.9 % of the steps take at most; its spread is not known", picture)
-
-    def test_takes_out_of_p999_what_the_reference_shares(self):
-        def ratio(mine_a, mine_b, below_a, below_b):
-            return comparison.Ratio(*(results.Row(row(ns_p999=ns), 2) for ns in (mine_a, mine_b, below_a, below_b))).p999
-        self.assertEqual(ratio(100, 300, 400, 800), 1.5)
-        for absent in range(4):
-            self.assertTrue(math.isnan(ratio(*("" if k == absent else 100 for k in range(4)))))
-
-    def test_interval_widens_with_the_spread_and_is_absent_without(self):
-        def ratio(**spread):
-            return comparison.Ratio(results.Row(row(ns=100, **spread), 2), results.Row(row(ns=110, **spread), 2), None, None)
-        quiet, noisy, unknown = ratio(ns_per_query_mad=1), ratio(ns_per_query_mad=20), ratio(ns_per_query_mad="")
-        self.assertTrue(quiet.differs)
-        self.assertLess(quiet.high / quiet.low, noisy.high / noisy.low)
-        self.assertFalse(noisy.differs)
-        self.assertEqual((unknown.known, unknown.differs, unknown.low), (False, False, unknown.value))
-
-    def test_says_what_cannot_be_compared(self):
-        a, b = self.run_of("a", row()), self.run_of("b", row(mesh="other"))
-        twice = self.run_of("twice", row(), row())
-        self.assertIn("the two share no row with times", self.refusal("--compare", a, b))
-        self.assertIn("twice: two rows of grid-group on slide: compare single runs", self.refusal("--compare", a, twice))
-        self.assertIn("--reference fcl: not timed in both on slide", self.refusal("--compare", a, a, "--reference", "fcl"))
-        self.assertIn("--compare: each of the two is a folder with results.csv", self.refusal("--compare", self.directory, a))
 
 
 class SeveralRuns(Folders):
