@@ -1,8 +1,7 @@
-"""Time against the number of groups (Park & Jang's Fig. 7): from times.csv of the paper's experiment, or from rows of
-grid-group:lookup=scan,groups=N in results.csv."""
+"""Time against the number of groups (Park & Jang's Fig. 7), from times.csv of the paper's experiment."""
 import math
 
-from .layout import canvas, count, duration, label, log_axis, name_panel, what_was_asked
+from .layout import canvas, count, duration, label, log_axis, name_panel
 from .results import NothingToDraw, Unusable, number, rows_of, shortened
 
 MARKS = [(61, "a tenth"), (214, "best"), (783, "rises")]  # groups, as Park & Jang's text has them
@@ -68,41 +67,6 @@ def usable(panels):
         if any(len(points) > 1 for points in panel.curves.values()):
             chosen.append(panel)
     return chosen
-
-
-def options_of(row):
-    return dict(option.partition("=")[::2] for option in row.options.split(",")) if row.options else {}
-
-
-def from_rows(rows):
-    """A panel a trajectory; the number of groups is what was aimed at."""
-    panels = {}
-    for row in rows:
-        if not row.ns_per_query > 0:
-            continue
-        panel = panels.setdefault(row.trajectory, Panel(shortened(row.trajectory, 40)))
-        options = options_of(row)
-        if row.name == "brute-force":
-            panel.add("ungrouped", 0, row.ns_per_query)
-        elif row.name == "grid-group":
-            panel.add("direct", 0, row.ns_per_query)
-        elif row.detector == "grid-group" and options.get("lookup") == "scan" and options.get("groups", "").isdigit():
-            panel.add(options.get("shape", "cube"), int(options["groups"]), row.ns_per_query)
-    return usable(panels.values())
-
-
-def others(rows):
-    """Without those that this picture shows: a row a number of groups is too many for a picture of detectors."""
-    numbers = {options["groups"] for options in map(options_of, rows) if "groups" in options}
-    return [row for row in rows if len(numbers) < 2 or "groups" not in options_of(row)]
-
-
-def draw_rows(plt, rows, source):
-    panels = from_rows(rows)
-    if not panels:
-        raise NothingToDraw("no detector grid-group:lookup=scan,groups=N with several N")
-    return draw_groups(plt, panels, "Time against the number of groups: down is better", what_was_asked(rows), source,
-                       "groups aimed at (log scale)")
 
 
 def draw_groups(plt, panels, title, asked, source, axis="number of groups (log scale)", unit="time of one query",

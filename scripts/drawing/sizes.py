@@ -2,7 +2,7 @@
 import math
 import statistics
 
-from . import detectors, groups
+from . import detectors
 from .layout import (MEAN_AND_P999, P999_MISSING, canvas, count, duration, label, legend_height, log_axis, name_panel,
                      p999_remark, telling_words, trajectories_of, what_was_asked)
 from .results import NothingToDraw, positive, shortened, unique
@@ -19,12 +19,11 @@ def families(meshes):
 
 
 def pictures(runs):
-    """(words for the file's name, rows, source) of each picture. Times of different machines never share one; runs over
-    the number of groups have a picture of their own."""
+    """(words for the file's name, rows, source) of each picture. Times of different machines never share one."""
     rows_by_key = {}
     family = families({row.mesh for run in runs for row in run.rows})
     for run in sorted(runs, key=lambda run: run.moment):
-        for row in groups.others(run.rows):
+        for row in run.rows:
             if row.ns_per_query > 0 and 0 < row.triangles < math.inf:
                 rows_by_key.setdefault((run.machine, row.query, family[row.mesh]), []).append((run, row))
     found = {}

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scripts/plot on several made-up runs: mesh sizes, groups; and what the pictures share."""
+"""scripts/plot on several made-up runs: mesh sizes and growth; and what the pictures share."""
 import csv
 import json
 import math
@@ -143,44 +143,6 @@ class Scaling(Folders):
     def test_refuses_a_table_that_is_none(self):
         self.assertIn("scaling.csv: line 2: column exponent: 'steep' is not a number",
                       self.refusal(self.scaled(self.fit("steep")), "--only", "scaling"))
-
-
-class Groups(Folders):
-    SCAN = "grid-group:lookup=scan"
-
-    def test_are_drawn_from_rows_that_name_their_number(self):
-        rows = [row(f"{self.SCAN},groups={n}", ns=1e6 / n) for n in (1, 10, 100)]
-        rows += [row(f"{self.SCAN},shape=sphere,groups={n}", ns=2e6 / n) for n in (1, 10)]
-        self.plot(self.run_of("a", *rows, row("brute-force", 1e6)), "--only", "groups")
-        picture = self.picture("groups")
-        for text in ("groups: cubes", "groups: spheres", "ungrouped", "slide", "groups aimed at"):
-            self.assertIn(text, picture)
-        self.assertNotIn("exact grid", picture)  # nobody timed it
-
-    def test_are_drawn_from_the_papers_table(self):
-        folder = self.directory / "park"
-        folder.mkdir()
-        table = folder / "times.csv"
-        table.write_text("mesh,triangles,form,groups,detection_ms\nbunny,948,ungrouped,,0.02\nbunny,948,cube,1,0.03\n"
-                         "bunny,948,cube,97,0.001\nbunny,948,direct,,0.0001\n", encoding="utf-8")
-        self.plot(folder)
-        self.assertIn("bunny: 948 triangles", self.picture("groups"))
-        self.assertIn("park/times.csv", self.picture("groups"))
-        table.write_text("mesh,triangles,form,groups,detection_ms\nbunny,948,cube,many,0.03\n", encoding="utf-8")
-        done = subprocess.run([SCRIPTS / "plot", folder], capture_output=True, text=True, check=False)
-        self.assertEqual((done.returncode, done.stderr),
-                         (2, f"plot: {table}: line 2: column groups: 'many' is not a number\n"))
-
-    def test_have_a_picture_of_their_own(self):
-        rows = [row(f"{self.SCAN},groups={n}", ns=100 + n, missed=1) for n in (1, 10)] + [row("fcl", missed=2)]
-        self.plot(self.run_of("a", *rows), "--only", "time_error,groups")
-        self.assertNotIn("groups=", self.picture("time_error"))
-        self.assertIn("groups: cubes", self.picture("groups"))
-
-    def test_are_left_out_where_there_is_one_number_only(self):
-        folder = self.run_of("a", row(f"{self.SCAN},groups=10"))
-        self.assertIn("groups: left out: no detector grid-group:lookup=scan,groups=N with several N",
-                      self.plot(folder, "--only", "groups"))
 
 
 class SeveralRuns(Folders):
