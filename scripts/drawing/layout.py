@@ -11,8 +11,6 @@ TRAJECTORIES = {"slide": "o", "slide:speed=0.4%": "p", "approach": "s", "hover":
 FILLS = {"o": 0.0, "p": 1.0, "s": 0.5, "D": 1.0, "^": 0.0, "v": 0.5, "P": 1.0, "X": 0.0}  # how much of the colour
 OTHER_MARKERS = "*hd<>"
 NARROWEST = 7.5  # inches: what a title and a legend need
-MEAN_AND_P999 = [("ns_per_query", "mean"), ("ns_p999", "99.9 % of the steps")]
-P999_MISSING = "none: below 1,000 steps"
 GRID = {"color": "0.85", "linewidth": 0.6}
 
 
@@ -107,12 +105,6 @@ def what_was_asked(rows):
     if steps:
         parts.append(("" if len(steps) == 1 else "up to ") + f"{max(steps):,} steps a trajectory")
     return ", ".join(parts)
-
-
-def p999_remark(rows):
-    """Why some of these rows have a mean and no 99.9 %, or nothing."""
-    lacking = any(row.ns_per_query > 0 and not row.ns_p999 > 0 for row in rows)
-    return "no mark at 99.9 %: fewer than 1,000 steps were clocked" if lacking else ""
 
 
 def name_axis(axes, names):

@@ -66,8 +66,6 @@ class Run:
         folder = path.resolve().parent
         self.path, self.rows = path, rows
         self.name = folder.name if path.name == "results.csv" else path.stem
-        self.moment = str(about.get("date", "")), self.name
-        self.machine = str(about.get("cpu") or folder.parent.name)
         self.source = source_of(self.name, about)
 
 

@@ -1,8 +1,7 @@
 #!/usr/bin/python3
-"""scripts/plot on several made-up runs: mesh sizes and growth; and what the pictures share."""
+"""scripts/plot on several made-up runs: growth; and what the pictures share."""
 import csv
 import json
-import math
 import pathlib
 import subprocess
 import sys
@@ -13,7 +12,7 @@ SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(SCRIPTS))
 
-from drawing import detectors, layout, results, servo, sizes  # noqa: E402
+from drawing import detectors, layout, servo  # noqa: E402
 
 ROW = {
     "detector": "grid-group", "options": "", "mesh": "bunny", "triangles": 69666, "trajectory": "slide", "query": "nearest",
@@ -62,56 +61,6 @@ class Folders(unittest.TestCase):
         """matplotlib writes a comment with the text above each run of glyphs."""
         self.assertTrue((self.out / f"{name}.png").read_bytes().startswith(b"\x89PNG"))
         return (self.out / f"{name}.svg").read_text(encoding="utf-8")
-
-
-class MeshSize(Folders):
-    def test_is_drawn_from_several_folders(self):
-        folders = [self.run_of(f"ico{n}", row(mesh=f"icosphere:{n}", triangles=20 * 4 ** n), row("fcl", mesh=f"icosphere:{n}",
-                   triangles=20 * 4 ** n)) for n in (2, 4)]
-        self.plot(*folders, "--only", "mesh_size")
-        picture = self.picture("mesh_size")
-        for text in ("icosphere:2, icosphere:4", "grid-group", "fcl", "1,000", "2 runs", "triangles (log scale)"):
-            self.assertIn(text, picture)
-
-    def test_shows_p999_beside_the_mean(self):
-        self.plot(self.run_of("a", *(row(mesh=f"soup:{n}", triangles=n) for n in (20, 50))), "--only", "mesh_size")
-        picture = self.picture("mesh_size")
-        for text in ("<!-- slide: mean -->", "<!-- slide: 99.9 % of the steps -->", "what 99.9 % of the steps take at most"):
-            self.assertIn(text, picture)
-        self.assertNotIn("no mark at 99.9 %", picture)
-        self.assertNotIn("none: below", picture)
-
-    def test_says_why_a_detector_has_no_p999(self):
-        short = [row("fcl", mesh=f"soup:{n}", triangles=n, steps=16, ns_p999="") for n in (20, 50)]
-        self.plot(self.run_of("a", *short), "--only", "mesh_size")
-        picture = self.picture("mesh_size")
-        for text in ("no mark at 99.9 %: fewer than 1,000 steps were clocked", "<!-- none: below 1,000 steps -->"):
-            self.assertIn(text, picture)
-
-    def test_breaks_the_line_where_p999_is_absent(self):
-        figure, axes = layout.load_pyplot().subplots()
-        self.addCleanup(layout.load_pyplot().close, figure)
-        rows = [results.Row(row(triangles=n, ns_p999=p999), 2) for n, p999 in ((20, 700), (50, ""), (80, 900))]
-        self.assertTrue(sizes.draw_sizes(axes, "grid-group", rows, "ns_p999"))
-        first, absent, last = axes.lines[0].get_ydata()
-        self.assertEqual((first, last), (700, 900))
-        self.assertTrue(math.isnan(absent))
-        self.assertFalse(sizes.draw_sizes(axes, "grid-group", rows[1:2], "ns_p999"))
-
-    def test_is_drawn_from_several_meshes_of_one_run_for_each_kind_of_mesh(self):
-        folder = self.run_of("a", *(row(mesh=f"{kind}:{n}", triangles=n) for kind in ("soup", "torus") for n in (20, 50)))
-        self.plot(folder, "--only", "mesh_size")
-        self.picture("mesh_size-soup")
-        self.picture("mesh_size-torus")
-
-    def test_never_mixes_the_times_of_two_machines(self):
-        folders = [self.run_of(f"m{n}", row(triangles=n), about={"cpu": f"cpu {n}"}) for n in (10, 20)]
-        self.assertIn("mesh_size: left out: meshes of one size only", self.plot(*folders, "--only", "mesh_size"))
-        self.assertFalse(self.out.exists())
-
-    def test_takes_the_sizes_of_one_kind_together(self):
-        self.assertEqual(sizes.families({"dragon", "dragon:2", "bunny", "torus:8x9@scale=2", "a.ply"}),
-                         {"dragon": "dragon", "dragon:2": "dragon", "bunny": "", "torus:8x9@scale=2": "torus", "a.ply": ""})
 
 
 class Scaling(Folders):

@@ -101,8 +101,7 @@ class Plot(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(self.pictures(), ["errors.png", "errors.svg"])  # who failed, and how
         for line in ("latency: left out: no row has times", "update_rate: left out: no row has an update rate",
-                     "time_error: left out: no detector has times and errors on every trajectory",
-                     "mesh_size: left out: meshes of one size only"):
+                     "time_error: left out: no detector has times and errors on every trajectory"):
             self.assertIn(line, done.stdout.splitlines())
 
     def test_shows_no_trade_of_time_for_error_where_nobody_errs(self):
