@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "bench/support/system/interrupt.h"
 #include "bench/workload/sample_steps.h"
@@ -14,50 +15,91 @@ constexpr std::size_t solved_at_once = 2048;
 
 }  // namespace
 
-GroundTruths::GroundTruths(const oracle::Oracle& oracle, std::span<const workload::Step> steps)
-    : oracle_(oracle) {
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const Probe& now = steps[i].probe;
-    probes_.questions.push_back(now);
-    reaches_.push_back(steps[i].reach);
-    sweeps_.questions.push_back({steps[i > 0 ? i - 1 : 0].probe.center, now.center, now.radius});
-  }
+Sweep TraceTruths::sweep_of(std::size_t step) const {
+  const Probe& now = steps_[step].probe;
+  return {steps_[step > 0 ? step - 1 : 0].probe.center, now.center, now.radius};
 }
 
-template <class Question, class TruthType>
-void GroundTruths::Asked<Question, TruthType>::solve(const oracle::Oracle& oracle,
-                                                     const std::vector<workload::StepRange>& ranges) {
-  truths.resize(questions.size());
-  known.resize(questions.size());
+double TraceTruths::distance_of(const oracle::GroundTruth& truth) noexcept {
+  return truth.defined ? truth.high : std::numeric_limits<double>::infinity();
+}
+
+bool TraceTruths::is_found(workload::Query query, std::size_t step) const {
+  if (query == workload::Query::sweep) return sweeps_.truths[step].hit;
+  const workload::Step& asked = steps_[step];
+  return reference().within(positions_.truths[step], asked.probe.center,
+                            query == workload::Query::touches ? asked.probe.radius : asked.reach);
+}
+
+std::vector<StepTruth> TraceTruths::known(workload::Query query) const {
+  const bool sweeps = query == workload::Query::sweep;
+  std::vector<StepTruth> steps(steps_.size());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    StepTruth& step = steps[i];
+    step.known = sweeps ? sweeps_.known[i] : positions_.known[i];
+    if (!step.known) continue;
+    step.found = is_found(query, i);
+    if (sweeps) continue;
+    const oracle::GroundTruth& truth = positions_.truths[i];
+    step.distance = distance_of(truth);
+    step.point = truth.point;
+    if (truth.defined) step.triangle = id_of(truth.triangle);
+  }
+  return steps;
+}
+
+WrongAnswer TraceTruths::wrong_answer(workload::Query query, std::size_t step, const workload::Answer& got,
+                                      const oracle::ErrorCounts& charged) const {
+  WrongAnswer wrong;
+  wrong.step = step;
+  wrong.query = query;
+  wrong.asked = steps_[step];
+  wrong.found = is_found(query, step);
+  wrong.got = got;
+  wrong.charged = charged;
+  if (query == workload::Query::sweep) {
+    const Sweep sweep = sweep_of(step);
+    wrong.from = sweep.from;
+    if (got.found != 0)
+      wrong.truth = reference().solve(Vec3(sweep.from + got.fraction * (sweep.to - sweep.from)));
+  } else {
+    wrong.truth = positions_.truths[step];
+    if (charged.wrong_side > 0) wrong.side = reference().side(wrong.asked.probe.center);
+  }
+  if (wrong.truth.defined) wrong.triangle = id_of(wrong.truth.triangle);
+  return wrong;
+}
+
+template <class Truth, class Question>
+void GroundTruths::solve(const std::vector<workload::StepRange>& ranges, Solved<Truth>& solved,
+                         const Question& question) {
   std::vector<std::size_t> unknown;
   for (const workload::StepRange& range : ranges) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      if (!known[i]) unknown.push_back(i);
+      if (!solved.known[i]) unknown.push_back(i);
     }
   }
   for (std::size_t begin = 0; begin < unknown.size(); begin += solved_at_once) {
     support::check_for_interrupt();
     const std::span<const std::size_t> some =
         std::span(unknown).subspan(begin, std::min(solved_at_once, unknown.size() - begin));
-    std::vector<Question> wanted;
-    for (const std::size_t i : some) wanted.push_back(questions[i]);
-    const std::vector<TruthType> solved = oracle.solve(std::span<const Question>(wanted));
-    for (std::size_t i = 0; i < some.size(); ++i) {
-      truths[some[i]] = solved[i];
-      known[some[i]] = true;
-    }
+    std::vector<decltype(question(begin))> wanted;
+    for (const std::size_t i : some) wanted.push_back(question(i));
+    const std::vector<Truth> truths = oracle_.solve(std::span(std::as_const(wanted)));
+    for (std::size_t i = 0; i < some.size(); ++i) solved.set(some[i], truths[i]);
   }
+}
+
+void GroundTruths::solve_positions(const std::vector<workload::StepRange>& ranges) {
+  solve(ranges, positions_, [&](std::size_t step) { return steps_[step].probe; });
 }
 
 std::vector<double> GroundTruths::distances(const std::vector<std::size_t>& steps) {
   std::vector<workload::StepRange> ranges;
   for (const std::size_t step : steps) ranges.push_back({step, step + 1});
-  probes_.solve(oracle_, workload::joined(ranges));
+  solve_positions(workload::joined(ranges));
   std::vector<double> distances;
-  for (const std::size_t step : steps) {
-    const oracle::GroundTruth& truth = probes_.truths[step];
-    distances.push_back(truth.defined ? truth.high : std::numeric_limits<double>::infinity());
-  }
+  for (const std::size_t step : steps) distances.push_back(distance_of(positions_.truths[step]));
   return distances;
 }
 
@@ -65,7 +107,10 @@ oracle::ErrorCounts GroundTruths::judge(workload::Query query, const std::vector
                                         std::span<const workload::Answer> answers, const Accuracy& accuracy,
                                         const oracle::Reported& reported, std::vector<WrongAnswer>* wrong,
                                         std::vector<oracle::Charge>* all_charges) {
-  query == workload::Query::sweep ? sweeps_.solve(oracle_, ranges) : probes_.solve(oracle_, ranges);
+  if (query == workload::Query::sweep)
+    solve(ranges, sweeps_, [&](std::size_t step) { return sweep_of(step); });
+  else
+    solve_positions(ranges);
   oracle::ErrorCounts counts;
   if (wrong != nullptr) wrong->clear();
   const std::size_t kept =
@@ -85,71 +130,26 @@ oracle::ErrorCounts GroundTruths::judge(workload::Query query, const std::vector
   return counts;
 }
 
-std::vector<StepTruth> GroundTruths::known(workload::Query query) const {
-  const bool sweeps = query == workload::Query::sweep;
-  std::vector<StepTruth> steps(reaches_.size());
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    StepTruth& step = steps[i];
-    if (sweeps) {
-      step.known = i < sweeps_.known.size() && sweeps_.known[i];
-      step.found = step.known && sweeps_.truths[i].hit;
-      continue;
-    }
-    step.known = i < probes_.known.size() && probes_.known[i];
-    if (!step.known) continue;
-    const oracle::GroundTruth& truth = probes_.truths[i];
-    const Probe& probe = probes_.questions[i];
-    step.found =
-        oracle_.within(truth, probe.center, query == workload::Query::touches ? probe.radius : reaches_[i]);
-    step.distance = truth.defined ? truth.high : std::numeric_limits<double>::infinity();
-    step.point = truth.point;
-    if (truth.defined) step.triangle = oracle_.mesh().id(truth.triangle);
-  }
-  return steps;
-}
-
-WrongAnswer GroundTruths::wrong_answer(workload::Query query, std::size_t step, const workload::Answer& got,
-                                       const oracle::ErrorCounts& charged) const {
-  WrongAnswer wrong;
-  wrong.step = step;
-  wrong.query = query;
-  wrong.asked = {probes_.questions[step], reaches_[step]};
-  wrong.got = got;
-  wrong.charged = charged;
-  if (query == workload::Query::sweep) {
-    const Sweep& sweep = sweeps_.questions[step];
-    wrong.from = sweep.from;
-    wrong.found = sweeps_.truths[step].hit;
-    if (got.found != 0)
-      wrong.truth = oracle_.solve(Vec3(sweep.from + got.fraction * (sweep.to - sweep.from)));
-  } else {
-    wrong.truth = probes_.truths[step];
-    const Vec3& center = wrong.asked.probe.center;
-    wrong.found = oracle_.within(
-        wrong.truth, center, query == workload::Query::touches ? wrong.asked.probe.radius : reaches_[step]);
-    if (charged.wrong_side > 0) wrong.side = oracle_.side(center);
-  }
-  if (wrong.truth.defined) wrong.triangle = oracle_.mesh().id(wrong.truth.triangle);
-  return wrong;
-}
-
 oracle::ErrorCounts GroundTruths::judge(workload::Query query, workload::StepRange range,
                                         std::span<const workload::Answer> answers, const Accuracy& accuracy,
                                         const oracle::Reported& reported, oracle::Charges& charges) const {
   if (query == workload::Query::sweep) {
-    return oracle::judge(oracle_, std::span(sweeps_.truths).subspan(range.begin, range.size()),
-                         std::span(sweeps_.questions).subspan(range.begin, range.size()), answers, accuracy,
-                         reported, &charges);
+    std::vector<Sweep> sweeps;
+    for (std::size_t step = range.begin; step < range.end; ++step) sweeps.push_back(sweep_of(step));
+    return oracle::judge(oracle_, std::span(sweeps_.truths).subspan(range.begin, range.size()), sweeps,
+                         answers, accuracy, reported, &charges);
   }
   // The judge takes one reach; recorded trajectories may change theirs from step to step.
   oracle::ErrorCounts counts;
   for (std::size_t begin = range.begin, end = begin; begin < range.end; begin = end) {
-    while (end < range.end && reaches_[end] == reaches_[begin]) ++end;
-    if (end == begin) ++end;  // a reach that is not a number equals nothing
+    const double reach = steps_[begin].reach;
+    std::vector<Probe> probes;
+    while (end < range.end && steps_[end].reach == reach) probes.push_back(steps_[end++].probe);
+    // A reach that is not a number equals nothing.
+    if (end == begin) probes.push_back(steps_[end++].probe);
     oracle::Charges of_this_reach(charges.max());
     counts +=
-        oracle::judge(oracle_, std::span(probes_.truths).subspan(begin, end - begin), query,
-                      std::span(probes_.questions).subspan(begin, end - begin), reaches_[begin],
+        oracle::judge(oracle_, std::span(positions_.truths).subspan(begin, end - begin), query, probes, reach,
                       answers.subspan(begin - range.begin, end - begin), accuracy, reported, &of_this_reach);
     charges.merge(of_this_reach, begin - range.begin);
   }

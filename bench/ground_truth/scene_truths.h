@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,15 +18,10 @@ oracle::SceneOracle scene_oracle(const scenes::PlacedScene& scene);
 
 class SceneTruths final : public TraceTruths {
  public:
-  /// All must outlive it. It moves the oracle's bodies, so one at a time may use the oracle.
+  /// All but the steps must outlive it. It moves the oracle's bodies, so one at a time may use the oracle.
   SceneTruths(oracle::SceneOracle& oracle, const scenes::PlacedScene& scene, scenes::ScheduleView schedule,
               std::span<const workload::Step> steps)
-      : oracle_(oracle),
-        scene_(scene),
-        schedule_(schedule),
-        steps_(steps),
-        positions_(steps.size()),
-        sweeps_(steps.size()) {}
+      : TraceTruths(steps), oracle_(oracle), scene_(scene), schedule_(schedule) {}
   SceneTruths(const SceneTruths&) = delete;
   /// Puts the bodies back where they were.
   ~SceneTruths() override;
@@ -37,24 +31,19 @@ class SceneTruths final : public TraceTruths {
                             std::span<const workload::Answer> answers, const Accuracy& accuracy,
                             const oracle::Reported& reported, std::vector<WrongAnswer>* wrong,
                             std::vector<oracle::Charge>* charges) override;
-  std::vector<StepTruth> known(workload::Query query) const override;
   std::vector<double> distances(const std::vector<std::size_t>& steps) override;
 
  private:
   void stand_at(std::size_t step);
-  Sweep sweep_of(std::size_t step) const;
   const oracle::GroundTruth& position(std::size_t step);
   const oracle::SweepGroundTruth& sweep(std::size_t step);
-  WrongAnswer wrong_answer(workload::Query query, std::size_t step, const workload::Answer& got,
-                           const oracle::ErrorCounts& charged);
+  const oracle::Reference& reference() const override { return oracle_; }
+  TriangleId id_of(std::uint32_t triangle) const override { return oracle_.name_of(triangle).second; }
 
   oracle::SceneOracle& oracle_;
   const scenes::PlacedScene& scene_;
   scenes::ScheduleView schedule_;
-  std::span<const workload::Step> steps_;
   scenes::ScheduleFollower follower_;
-  std::vector<std::optional<oracle::GroundTruth>> positions_;  ///< what is known so far, one a step
-  std::vector<std::optional<oracle::SweepGroundTruth>> sweeps_;
 };
 
 }  // namespace touchmark::bench::ground_truth
