@@ -19,7 +19,7 @@ import numpy
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.path.insert(0, str(SCRIPTS))
 sys.dont_write_bytecode = True
-from regression import builds, expectations, judge, measure, report, rivals  # noqa: E402
+from regression import builds, expectations, judge, measure, report  # noqa: E402
 from regression.failure import BadInput  # noqa: E402
 
 RUNS = 40
@@ -417,7 +417,6 @@ class Comparison(unittest.TestCase):
         self.regress.builds = mock.Mock(wraps=builds, DoesNotBuild=builds.DoesNotBuild, ROOT=self.out)
         self.regress.say = lambda text: None
         expectations.update_answers(self.regress.EXPECTED, measured(), "first")
-        self.rivals = rivals.skipped("build/release/bin/touchmark is not built")
 
     def compare(self, head="head", base="base", answers=None, instructions=1.0, truths=({},), unchanged=False, **options):
         """truths: what the rounds of each batch are made of. Returns the exit status and the record."""
@@ -446,8 +445,7 @@ class Comparison(unittest.TestCase):
         self.arguments = arguments
         with mock.patch.object(measure, "answers", lambda _, plugins: [answers or measured(), measured()][:len(plugins)]), \
                 mock.patch.object(measure, "instructions", lambda *_: counted), \
-                mock.patch.object(measure, "times", times), mock.patch.object(rivals, "measured", lambda: self.rivals), \
-                contextlib.redirect_stdout(io.StringIO()) as printed:
+                mock.patch.object(measure, "times", times), contextlib.redirect_stdout(io.StringIO()) as printed:
             status = self.regress.compare(arguments)
         self.printed = printed.getvalue()
         return status, json.loads((self.out / "report.json").read_text())
@@ -457,15 +455,6 @@ class Comparison(unittest.TestCase):
         self.assertEqual((status, record["verdict"], record["failed"]), (0, "pass", []))
         self.assertEqual(len(record["cases"]["a"]["batches"]), 1)
         self.assertIn("verdict: PASS", self.printed)
-
-    def test_rivals_are_told_and_nothing_depends_on_them(self):
-        self.assertEqual(self.compare()[0], 0)
-        self.assertIn("RIVALS NOT MEASURED: build/release/bin/touchmark is not built", self.printed)
-        self.rivals = rivals.Rivals("c0ffee", {"embree": {"slide": 0.001}}, "")
-        status, record = self.compare()
-        self.assertEqual((status, record["rivals"]["ratios"]), (0, {"embree": {"slide": 0.001}}))
-        self.assertRegex(self.printed, r"embree +slide 0.0\n")
-        self.assertNotIn("built from", self.printed)
 
     def test_the_same_bits_are_not_timed(self):
         status, record = self.compare(head="same", base="same", truths=())
@@ -510,38 +499,6 @@ class Comparison(unittest.TestCase):
             comparison.batches = {"a": [slow, slow], "b": [slow, slow]}
             self.regress.accept(comparison, "worth it")
         self.assertEqual(self.compare(**slower)[0], 0)
-
-
-class RivalsMeasured(unittest.TestCase):
-    """By a program that is a few lines of shell."""
-
-    LIST = "contestants: --detector NAME\n  grid-group\n      ours\n  sphere-cluster\n  fcl\n      a rival\nscenes\n  embree\n"
-    ROWS = ("detector,options,trajectory,status,ns_p50\ngrid-group,,slide,ok,200\nsphere-cluster,,slide,ok,100\n"
-            "fcl,,slide,ok,1500\nfcl,bv=rss,slide,crashed,\n")
-
-    def measured(self, bench):
-        with tempfile.TemporaryDirectory() as folder:
-            program = pathlib.Path(folder) / "touchmark"
-            program.write_text(f"""#!/bin/bash
-if [ "$1" = list ]; then printf '{self.LIST}'; exit; fi
-while [ "$1" != --out ]; do shift; done
-echo '{{"commit": "c0ffee"}}' >"$2/run.json"; printf '{self.ROWS}' >"$2/results.csv"; {bench}
-""")
-            program.chmod(0o755)
-            with mock.patch.object(rivals, "PROGRAM", program), mock.patch.object(rivals, "SECONDS", 1):
-                return rivals.measured()
-
-    def test_ratios_are_to_the_faster_of_ours(self):
-        found = self.measured("exit 0")
-        self.assertEqual(found, ("c0ffee", {"fcl": {"slide": 15}, "fcl:bv=rss": {}}, ""))
-        self.assertIn("build/release, built from c0ffee;", rivals.lines(found, "decade0")[0])
-
-    def test_a_program_that_fails_or_hangs_is_told(self):
-        self.assertEqual(self.measured("echo bad >&2; exit 2").skipped, "bad")
-        self.assertIn("longer than 1 s", self.measured("exec sleep 9").skipped)
-        self.assertIn("results.csv", self.measured("rm $2/results.csv").skipped)
-        with mock.patch.object(rivals, "PROGRAM", builds.ROOT / "no" / "such"):
-            self.assertEqual(rivals.measured().skipped, "no/such is not built")
 
 
 class AnswersOfAFile(unittest.TestCase):
