@@ -7,7 +7,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/regression/driver/cases.h"
 #include "bench/regression/driver/commands.h"
 #include "bench/support/failures.h"
 #include "bench/support/system/denormals.h"
@@ -21,11 +20,6 @@ int fail(int status, const std::string& what) {
   return status;
 }
 
-void list_cases() {
-  for (const regression::driver::Case& listed : regression::driver::cases())
-    fmt::print("{}{}\n", listed.name(), listed.timed ? "" : " (not timed)");
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -36,8 +30,6 @@ int main(int argc, char** argv) {
       "Example: touchmark-regression answers --plugin build/regress/head/plugin.so --out answers.csv\n");
   std::string plugin, out;
   regression::driver::Timing timing;
-
-  program.add_subcommand("list", "the pinned cases")->callback(list_cases);
 
   auto* const answers = program.add_subcommand("answers", "work counters and checksums of every case");
   answers->add_option("--plugin", plugin)->required();
