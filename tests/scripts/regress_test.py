@@ -440,7 +440,7 @@ class Comparison(unittest.TestCase):
             now = next(batches)
             return {name: rounds(seed, **now) for name in cases or ("a", "b")}
         counted = [{"a": 1000, "b": 1000}, {"a": 1000, "b": 1000 * instructions}]
-        arguments = argparse.Namespace(out=self.out, against=None, seed=1, even_if_same=False, accept=False,
+        arguments = argparse.Namespace(out=self.out, against=None, seed=1, accept=False,
                                        reason=None, **options)
         self.arguments = arguments
         with mock.patch.object(measure, "answers", lambda _, plugins: [answers or measured(), measured()][:len(plugins)]), \
