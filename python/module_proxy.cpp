@@ -52,6 +52,8 @@ class HapticPoint {
     return proxy_->step(goal, *session_);
   }
 
+  Vec3 force_now(const Vec3& goal) const noexcept { return proxy_->force_now(goal); }
+
  private:
   /// A batch that wants the interpreter's lock may hold an update up: it is let go while this waits.
   std::shared_lock<ForkSafeLock> locked() const {
@@ -108,7 +110,13 @@ void define_proxy(py::module_& module) {
             point.place(one_point(position, "position"));
           },
           "position"_a.noconvert())
-      .def("step", &step, "goal"_a.noconvert());
+      .def("step", &step, "goal"_a.noconvert())
+      .def(
+          "force_now",
+          [](const HapticPoint& point, const Array<double>& goal) {
+            return array_of(point.force_now(one_point(goal, "goal")));
+          },
+          "goal"_a.noconvert());
 }
 
 }  // namespace touchmark::python

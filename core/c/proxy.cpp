@@ -1,6 +1,7 @@
 // The proxy of core/c/touchmark.h.
 #include "core/haptics/proxy.h"
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,6 +14,7 @@
 
 using namespace touchmark::c;
 using touchmark::Coupling;
+using touchmark::ForcePlanes;
 using touchmark::NamedDetector;
 using touchmark::Proxy;
 using touchmark::ProxyState;
@@ -108,4 +110,19 @@ int touchmark_proxy_step(touchmark_proxy* proxy, const double goal[3], touchmark
   const ProxyState& now = proxy->proxy.step(point(goal), *proxy->memory);
   if (state != nullptr) store_state(now, *state);
   return now.contacts > 0 ? TOUCHMARK_YES : TOUCHMARK_NO;
+}
+
+int touchmark_proxy_planes(const touchmark_proxy* proxy, touchmark_force_planes* planes) {
+  if (proxy == nullptr) return fail_for_null(__func__, "proxy");
+  if (planes == nullptr) return fail_for_null(__func__, "planes");
+  *planes = std::bit_cast<touchmark_force_planes>(proxy->proxy.planes());
+  return TOUCHMARK_YES;
+}
+
+int touchmark_force_now(const touchmark_force_planes* planes, const double goal[3], double force[3]) {
+  if (planes == nullptr) return fail_for_null(__func__, "planes");
+  if (goal == nullptr) return fail_for_null(__func__, "goal");
+  if (force == nullptr) return fail_for_null(__func__, "force");
+  store(std::bit_cast<ForcePlanes>(*planes).force(point(goal)), force);
+  return TOUCHMARK_YES;
 }

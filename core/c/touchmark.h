@@ -101,6 +101,12 @@ typedef struct touchmark_proxy_state {
   uint64_t flags;        /**< TOUCHMARK_PROXY_UNFINISHED, or 0 */
 } touchmark_proxy_state;
 
+/// The planes that hold a proxy, for the force on a device that is faster than the proxy's loop. A program
+/// may copy it from one thread to another; what its numbers are may change from version to version.
+typedef struct touchmark_force_planes {
+  double numbers[22];
+} touchmark_force_planes;
+
 /// Returns "MAJOR.MINOR.PATCH" of the library that is linked.
 TOUCHMARK_API const char* touchmark_version(void);
 
@@ -172,6 +178,13 @@ TOUCHMARK_API int touchmark_proxy_place(touchmark_proxy* proxy, const double pos
 /// the surface as it is then. Fails for a proxy that was never placed.
 TOUCHMARK_API int touchmark_proxy_step(touchmark_proxy* proxy, const double goal[3],
                                        touchmark_proxy_state* state);
+/// Stores the planes that have held the proxy since its last step. Returns TOUCHMARK_YES or TOUCHMARK_ERROR.
+TOUCHMARK_API int touchmark_proxy_planes(const touchmark_proxy* proxy, touchmark_force_planes* planes);
+/// Stores the force on a device that has gone on to `goal` since that step, N: the step's own at the step's
+/// goal, 0 where the goal has left the planes or is no number. Asks nothing. Returns TOUCHMARK_YES or
+/// TOUCHMARK_ERROR.
+TOUCHMARK_API int touchmark_force_now(const touchmark_force_planes* planes, const double goal[3],
+                                      double force[3]);
 
 /// Makes a scene without bodies.
 TOUCHMARK_API touchmark_scene* touchmark_scene_create(void);

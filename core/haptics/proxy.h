@@ -21,6 +21,7 @@
 
 #include "core/detector.h"
 #include "core/haptics/coupling.h"
+#include "core/haptics/force_planes.h"
 #include "core/haptics/force_shading.h"
 #include "core/haptics/proxy_motion.h"
 #include "core/probe.h"
@@ -76,6 +77,11 @@ class Proxy {
 
   /// Sets Coupling::max_work for the steps to come: a loop may spend what it has left.
   void limit_work(std::uint64_t max_work) noexcept { motion_.limit_work(max_work); }
+  /// Returns the force on a device that has gone on to `goal` since the last step, by the planes that held
+  /// the proxy then. It asks the detector nothing, and the proxy stays.
+  Vec3 force_now(const Vec3& goal) const noexcept { return planes().force(goal); }
+  /// Returns what force_now goes by, for another thread.
+  ForcePlanes planes() const noexcept { return motion_.planes(); }
 
   const ProxyState& state() const noexcept { return motion_.state(); }
   const Coupling& coupling() const noexcept { return motion_.coupling(); }

@@ -10,6 +10,7 @@
 
 #include "core/haptics/contact_planes.h"
 #include "core/haptics/coupling.h"
+#include "core/haptics/force_planes.h"
 #include "core/haptics/force_shading.h"
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
@@ -55,6 +56,7 @@ class ProxyMotion {
   const Vec3& position() const noexcept { return state_.position; }
   const Coupling& coupling() const noexcept { return coupling_; }
   void limit_work(std::uint64_t max_work) noexcept { coupling_.max_work = max_work; }
+  ForcePlanes planes() const noexcept { return {state_, goal_, coupling_}; }
   /// The distance that this tick keeps: more than that it stays off the surface.
   double kept() const noexcept { return kept_; }
   void keep(double distance) noexcept { kept_ = distance; }

@@ -580,3 +580,7 @@ class Proxy:
         """One tick: follows the goal, (3,), which is the device's tip, as far as the surface lets it."""
         position, force, contacts, status, unfinished = self._native.step(_point("goal", goal))
         return ProxyState(position, force, contacts, ProxyStatus(status), unfinished)
+
+    def force_now(self, goal: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """The force, N, (3,), on a tip that has gone on to `goal` since the last step, by the planes that held the proxy then."""
+        return self._native.force_now(_point("goal", goal))

@@ -508,6 +508,9 @@ class Proxies(unittest.TestCase):
             np.testing.assert_allclose(held.position, (0.1, 0.2, radius), atol=1e-9)
             np.testing.assert_allclose(held.force, (0, 0, 200 * (0.3 + radius)), atol=1e-6)
             np.testing.assert_allclose(held.contacts, [[0, 0, 1]], atol=1e-12)
+            np.testing.assert_array_equal(proxy.force_now((0.1, 0.2, -0.3)), held.force)
+            np.testing.assert_allclose(proxy.force_now((0.2, 0.2, -0.4)), (0, 0, 200 * (0.4 + radius)), atol=1e-6)
+            np.testing.assert_array_equal(proxy.force_now((0, 0, 0.5)), 0)
 
     def test_it_stays_outside_of_a_mesh_that_it_is_pushed_into(self):
         detector = touchmark.SphereCluster(MESH)

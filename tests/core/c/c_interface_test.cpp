@@ -113,6 +113,7 @@ TEST(CInterface, LaysItsStructsOutAsThePageSays) {
       sizeof(touchmark_proxy_state) == 136 && offsetof(touchmark_proxy_state, force) == 24 &&
       offsetof(touchmark_proxy_state, normals) == 48 && offsetof(touchmark_proxy_state, status) == 120 &&
       offsetof(touchmark_proxy_state, contacts) == 124 && offsetof(touchmark_proxy_state, flags) == 128);
+  static_assert(sizeof(touchmark_force_planes) == 176);
 }
 
 TEST(CInterface, AnswersTheBitsOfBruteForceWhateverTheDetector) {
@@ -371,6 +372,13 @@ TEST(CInterface, AProxyTakesTheWayAndTheForcesOfTheOneInCpp) {
         for (std::size_t i = 0; i < now.contacts; ++i) ASSERT_EQ(state.normals[i][k], now.normals[i][k]);
       }
       held += found;
+      touchmark_force_planes planes{};
+      ASSERT_EQ(touchmark_proxy_planes(proxy, &planes), TOUCHMARK_YES);
+      for (const Vec3& on : {goal, Vec3(goal - Vec3(0, 0.01, 0.02))}) {
+        Vec3 force;
+        ASSERT_EQ(touchmark_force_now(&planes, on.data(), force.data()), TOUCHMARK_YES);
+        ASSERT_EQ(force, expected.force_now(on));
+      }
     }
     EXPECT_GT(held, 100);
     touchmark_proxy_free(proxy);
