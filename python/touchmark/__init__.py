@@ -222,10 +222,14 @@ def _faces(value: Any) -> npt.NDArray[np.uint32]:
     return np.require(array, np.uint32, ["C", "A"])
 
 
-def _threads(value: int) -> int:
+def _whole(name: str, value: int, zero: str) -> int:
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 0:
-        raise ValueError(f"threads is {value!r}; it must be a whole number, and 0 means one a processor")
+        raise ValueError(f"{name} is {value!r}; it must be a whole number, and 0 means {zero}")
     return int(value)
+
+
+def _threads(value: int) -> int:
+    return _whole("threads", value, "one a processor")
 
 
 class Mesh:
@@ -561,7 +565,7 @@ class Proxy:
             raise TypeError(f"a Proxy is over a detector such as touchmark.GridGroup, not over a {type(detector).__name__}")
         self._detector = detector
         self._native = _native.Proxy(detector._native, radius, stiffness, static_friction, dynamic_friction, damping, tick_s,
-                                     max_work)
+                                     _whole("max_work", max_work, "no bound"))
         self.place(position)
 
     @property

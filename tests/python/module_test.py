@@ -522,6 +522,20 @@ class Proxies(unittest.TestCase):
         self.assertLess(distances.min(), 0.05 + 1e-9)
         np.testing.assert_array_equal(detector.side(positions), Side.OUTSIDE)
 
+    def test_a_step_ends_where_its_work_does(self):
+        detector = touchmark.SphereCluster(MESH)
+        proxy = touchmark.Proxy(detector, (0, 0, 2), radius=0.05, max_work=1)
+        first = proxy.step((0, 0, 0))
+        self.assertTrue(first.unfinished)
+        np.testing.assert_array_equal(first.position, (0, 0, 2))
+        np.testing.assert_allclose(first.force, (0, 0, 2000))
+        self.assertFalse(touchmark.Proxy(detector, (0, 0, 2), radius=0.05, max_work=100000).step((0, 0, 0)).unfinished)
+        for wrong in (-1, 1.5, True):
+            with self.assertRaisesRegex(ValueError, "max_work is .*; it must be a whole number"):
+                touchmark.Proxy(detector, (0, 0, 2), max_work=wrong)
+        with self.assertRaisesRegex(ValueError, "keeps to no limit"):
+            touchmark.Proxy(touchmark.AabbTree(MESH), (0, 0, 2), max_work=5)
+
     def test_it_notices_an_update_of_its_detector(self):
         detector = touchmark.GridGroup(self.PLATE)
         proxy = touchmark.Proxy(detector, (0, 0, 1), radius=0.1)
