@@ -72,7 +72,7 @@ class GridGroup {
 
   /// Asks the last question again where the point will be if it goes on as it moved, unless that is known to
   /// be clear. The next query then finds its data and its code in the caches, best when this is called just
-  /// before the device is read. Work is bounded as that of two queries is.
+  /// before the device is read. Work is bounded as that of three queries is.
   void prepare(Session& session) const noexcept { queries::prepare(surface_, session); }
 
   /// Bounds what lazy construction adds to a query: no more boxes and triangles than this besides those that

@@ -1,3 +1,5 @@
+#include <array>
+
 #include "core/point_queries/near_leaves.h"
 #include "core/point_queries/queries.h"
 
@@ -17,6 +19,10 @@ struct Asked {
   void first_hit(const Sweep& sweep, PointMemory& memory, LimitedWork& work) const noexcept {
     queries::first_hit(surface, sweep, memory, work);
   }
+  void contacts(const Vec3& center, double reach, PointMemory& memory, Work& work) const noexcept {
+    std::array<Contact, 16> into;
+    queries::contacts(surface, center, reach, memory, into, false, work);
+  }
 };
 
 }  // namespace
@@ -26,7 +32,9 @@ void prepare(const Surface& surface, const LastQuestion& question, PointMemory& 
   const WideBvh& bvh = surface.bvh;
   if (memory.epoch != bvh.epoch() || is_clear(bvh, memory.center, question.reach, memory)) return;
   const Vec3 move = is_slow(bvh, memory.move) ? memory.move : Vec3(Vec3::Zero());
-  if (question.query != LastQuestion::Query::touches && memory.is_near()) refill_ahead(bvh, memory, work);
+  const bool looks_at_leaves =
+      question.query == LastQuestion::Query::nearest || question.query == LastQuestion::Query::sweep;
+  if (looks_at_leaves && memory.is_near()) refill_ahead(bvh, memory, work);
   const Vec3 kept = memory.move, free_center = memory.free_center;
   const double free_radius = memory.free_radius;
   ask_again(Asked{surface}, question, memory.center + move, move, memory, work);

@@ -89,6 +89,7 @@ inline std::optional<Impact> first_hit(const Surface& surface, const Sweep& swee
 inline std::size_t contacts(const Surface& surface, const Probe& probe, double reach, Session& session,
                             std::span<Contact> into, bool counts_all = true) noexcept {
   if (is_clear_at_once(surface.bvh, probe.center, reach, session.memory) || !(reach >= 0)) return 0;
+  session.question = {LastQuestion::Query::contacts, reach};
   return contacts(surface, probe.center, reach, session.memory, into, counts_all, session.work);
 }
 inline void prepare(const Surface& surface, Session& session) noexcept {

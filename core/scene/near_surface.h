@@ -34,14 +34,17 @@ struct SceneState {
   friend bool operator==(const SceneState&, const SceneState&) = default;
 };
 
-/// What was asked last where a body may be near, and where.
+/// What was asked last where a body may be near, and where. A sweep ends at the point.
 struct SceneQuestion {
   LastQuestion question;
   Vec3 point = Vec3::Zero(), way = Vec3::Zero();  ///< the way leads from the place before to the point
   SceneState scene;
 
   void note(const LastQuestion& asked, const Vec3& now, const SceneBodies& bodies) noexcept {
-    way = question.query == LastQuestion::Query::none ? Vec3(Vec3::Zero()) : Vec3(now - point);
+    using enum LastQuestion::Query;
+    // Contacts are asked for where a sweep has ended, or was stopped.
+    const bool goes_on = asked.query == contacts && question.query == sweep;
+    if (!goes_on) way = question.query == none ? Vec3(Vec3::Zero()) : Vec3(now - point);
     question = asked;
     point = now;
     scene = SceneState::of(bodies);

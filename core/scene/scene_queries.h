@@ -151,12 +151,15 @@ template <BodyDetector D>
 std::optional<BodyImpact> Scene<D>::first_hit_body(const Sweep& sweep,
                                                    Session& session) const noexcept requires AnswersSweep<D> {
   if (!(sweep.radius >= 0) || !sweep.from.allFinite() || !sweep.to.allFinite()) return std::nullopt;
-  session.last.question = {};  // `prepare` asks no sweep again
   std::optional<Impact> first;
   std::uint32_t whose = 0;
   const double limit = sweep.radius;
+  if (session.near.all_are_beyond(sweep.from, limit + path_length(sweep.from, sweep.to), bodies_))
+    return std::nullopt;
+  session.last = {
+      {LastQuestion::Query::sweep, limit}, sweep.to, sweep.to - sweep.from, SceneState::of(bodies_)};
   ask_near(
-      sweep.from, sweep.to, limit, false, session,
+      sweep.from, sweep.to, limit, true, session,
       [&](const Shape<D>& shape, std::uint32_t body, const SeenBody& /*seen*/, typename D::Session& own) {
         const std::optional<Impact> hit =
             shape.is_round()
@@ -220,8 +223,9 @@ template <class Found>
 void Scene<D>::for_each_contact(const Probe& probe, double reach, Session& session,
                                 const Found& found) const noexcept {
   if (!(reach >= 0) || !probe.center.allFinite()) return;
-  session.last.question = {};  // `prepare` asks for no contacts again
-  ask_near(probe.center, probe.center, reach, false, session,
+  if (session.near.all_are_beyond(probe.center, reach, bodies_)) return;
+  session.last.note({LastQuestion::Query::contacts, reach}, probe.center, bodies_);
+  ask_near(probe.center, probe.center, reach, true, session,
            [&](const Shape<D>& shape, std::uint32_t body, const SeenBody& seen, typename D::Session& own) {
              return with_query(shape, body, seen, own, [&](const auto& query) {
                query.for_each_within(reach, [&](const ImageCandidate& candidate) {
@@ -263,7 +267,6 @@ void Scene<D>::prepare(Session& session) const noexcept requires Prepares<D> {
     touches({center, 0}, session);
     nearest_body({center, 0}, 0, session);
     if constexpr (AnswersSweep<D>) first_hit_body({center, center, 0}, session);
-    session.last = last;  // which a sweep forgets
     return;
   }
   if (ask_again(session)) return;

@@ -69,12 +69,19 @@ bool Scene<D>::ask_again(Session& session) const noexcept {
   const auto [query, reach] = last.question;
   if (query == Query::none || last.scene == SceneState::of(bodies_) || session.near.is_jumping())
     return false;
-  // The first answer bounds the second one's distance, without which no list is made.
-  for (const Vec3& point : {last.point, Vec3(last.point + last.way)}) {
-    if (query == Query::touches)
-      touches({point, reach}, session);
-    else
+  // The first answer bounds the second one's distance, without which no list is made. Where it stands a proxy
+  // asks first, by what was asked there last.
+  const bool is_proxy = query == Query::sweep || query == Query::contacts;
+  const Vec3 ahead = last.point + last.way;
+  for (const Vec3& point : {is_proxy ? ahead : last.point, is_proxy ? last.point : ahead}) {
+    if (query == Query::nearest)
       nearest_body({point, 0}, reach, session);
+    else
+      touches({point, reach}, session);  // a proxy, too, after a move
+    if (query == Query::contacts)
+      for_each_contact({point, 0}, reach, session, [](std::uint32_t, const Contact&) {});
+    if constexpr (AnswersSweep<D>)
+      if (query == Query::sweep) first_hit_body({point - last.way, point, reach}, session);
   }
   session.last = last;
   session.last.scene = SceneState::of(bodies_);

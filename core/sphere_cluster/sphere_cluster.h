@@ -92,7 +92,7 @@ class SphereCluster {
   /// Lists, after `nearest`, the leaves near the point for a next tick that moves no farther
   /// than twice as far as this one, and asks the last question again, where the point will be if it goes on
   /// as it moved. The next query then finds its data and its code in the caches, best when this is called
-  /// just before the device is read. Work is bounded as that of two queries is.
+  /// just before the device is read. Work is bounded as that of three queries is.
   void prepare(Session& session) const noexcept { queries::prepare(surface_, session); }
 
   std::size_t bytes() const noexcept { return surface_.bvh.bytes(); }

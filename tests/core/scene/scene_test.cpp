@@ -179,6 +179,36 @@ TEST(Scene, PreparedAfterAMoveBesideABodyLooksAtNoBodyAndAnswersAsItWouldHave) {
   EXPECT_GE(looked_plain, 6u);  // at least one in each of the six frames
 }
 
+// A proxy asks so after a move: is it free where it is, what is on its way, and what is around its end?
+TEST(Scene, PreparedAfterTheQuestionsOfAProxyAndAMoveLooksAtLessAndAnswersAsItWouldHave) {
+  Scene<SphereCluster> scene;
+  const ShapeId shape = scene.add_shape(Shape<SphereCluster>::build(square()));
+  const BodyId body = scene.add(shape, at(0, 0, 0));
+  for (int i = 1; i < 100; ++i) scene.add(shape, at(0, 0, -3 * i));
+  for (const bool lists : {true, false}) {
+    Scene<SphereCluster>::Session prepared, plain;
+    const auto answers = [&](int tick, Scene<SphereCluster>::Session& session, std::uint64_t& looked) {
+      const Vec3 from(0.001 * tick, 0, 0.3), to(0.001 * tick + 0.001, 0, 0.3);
+      const std::uint64_t before = session.work.bodies;
+      std::vector<double> told{scene.touches({from, 0.25}, session) ? 1.0 : 0.0};
+      looked += session.work.bodies - before;
+      const auto hit = scene.first_hit_body({from, to, 0.25}, session);
+      told.push_back(hit ? hit->impact.fraction : -1);
+      std::array<Contact, 4> into;
+      if (lists) told.push_back(static_cast<double>(scene.contacts({to, 0}, 0.5, session, into)));
+      if (lists) told.push_back(into[0].distance);
+      return told;
+    };
+    std::uint64_t looked_prepared = 0, looked_plain = 0;
+    for (int tick = 0; tick < 64; ++tick) {
+      if (tick % 8 == 0) scene.move(body, at(0, 0, tick % 16 == 0 ? 0 : 0.045));
+      if (tick % 8 == 0) scene.prepare(prepared);
+      EXPECT_EQ(answers(tick, prepared, looked_prepared), answers(tick, plain, looked_plain)) << tick;
+    }
+    EXPECT_LT(looked_prepared, looked_plain);
+  }
+}
+
 TEST(Scene, PreparedInFreeSpaceStillKnowsWhatWasAskedLast) {
   Scene<SphereCluster> scene;
   const BodyId body = scene.add(scene.add_shape(Shape<SphereCluster>::build(square())), at(0, 0, 0));

@@ -228,6 +228,35 @@ TEST(SphereCluster, PreparingTakesTheListingOutOfTheQueries) {
   for (std::size_t i = 0; i < prepared.size(); ++i) expect_same(prepared[i], unprepared[i]);
 }
 
+// As a proxy asks on its way: sweeps that end where contacts are asked for.
+TEST(SphereCluster, PreparingAsksForContactsAgainWhereTheNextSweepBegins) {
+  const SphereCluster detector = SphereCluster::build(test::bumpy_sphere(60, 1e-3, 53));
+  SphereCluster::Session prepared, plain;
+  const auto place = [](int step) -> Vec3 {
+    const double turn = 5e-4 * step;
+    return 1.011 * Vec3(std::cos(turn), std::sin(turn) * 0.8, std::sin(turn) * 0.6);
+  };
+  const auto tick = [&](int step, SphereCluster::Session& session, std::vector<double>& told) {
+    const std::uint64_t before = session.work.total();
+    const auto hit = detector.first_hit({place(step), place(step + 1), 0.009}, session);
+    std::array<Contact, 16> into;
+    const std::size_t count = detector.nearest_contacts({place(step + 1), 0}, 0.012, session, into);
+    told.push_back(hit ? hit->fraction : -1);
+    for (std::size_t i = 0; i < count; ++i) told.push_back(into[i].distance);
+    return session.work.total() - before;
+  };
+  std::uint64_t with = 0, without = 0;
+  std::vector<double> told_with, told_without;
+  for (int step = 0; step < 2000; ++step) {
+    detector.prepare(prepared);
+    with += tick(step, prepared, told_with);
+    without += tick(step, plain, told_without);
+  }
+  EXPECT_LT(with, without) << "what was listed ahead is not listed in the tick";
+  EXPECT_EQ(told_with, told_without);
+  EXPECT_GT(told_with.size(), 4000u) << "there is something to tell";
+}
+
 TEST(SphereCluster, PreparesNothingWhereNothingIsNear) {
   const SphereCluster detector = SphereCluster::build(test::bumpy_sphere(10, 0, 59));
   SphereCluster::Session session;
