@@ -105,14 +105,15 @@ class Contestant {
   virtual bool prepares() const noexcept = 0;
   /// Moves the bodies of a scene to where they are at a step. The loops above do so before each query, which
   /// is quick where the step before was the last one; elsewhere it may take its time, so do it before a clock
-  /// is read.
-  virtual void stand_at(const workload::QueryTrace& trace, std::size_t step) noexcept {
-    static_cast<void>(trace), static_cast<void>(step);
+  /// is read. Returns true if bodies were moved.
+  virtual bool stand_at(const workload::QueryTrace& trace, std::size_t step) noexcept {
+    return static_cast<void>(trace), static_cast<void>(step), false;
   }
   /// Returns true if it can do some of the next query's work after bodies were moved and before that query.
   virtual bool prepares_after_moves() const noexcept { return false; }
-  /// Does so, where it can. The loops above never call it, and no answer changes.
-  virtual void prepare_after_moves() noexcept {}
+  /// Does so, where it can, and where the detector prepares. The loops above never call it, and no answer
+  /// changes.
+  virtual void prepare_next() noexcept {}
 };
 
 }  // namespace touchmark::bench::contestants

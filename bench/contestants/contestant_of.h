@@ -57,7 +57,7 @@ concept KnownOnceBuilt = Detector<D> && requires(const D& detector, workload::Qu
 template <class D>
 concept StandsInSchedules = requires(D& detector, const scenes::ScheduleView* schedule,
                                      const typename D::Session& session) {
-  detector.stand_at(schedule, std::size_t{});
+  { detector.stand_at(schedule, std::size_t{}) } -> std::same_as<bool>;
   { session.body } -> std::same_as<const std::uint32_t&>;
 };
 
@@ -72,13 +72,15 @@ class ContestantOf final : public Contestant {
   explicit ContestantOf(std::shared_ptr<D> detector) : detector_(std::move(detector)) { begin_session(); }
 
   std::unique_ptr<Contestant> share() const override { return std::make_unique<ContestantOf>(detector_); }
-  void stand_at([[maybe_unused]] const workload::QueryTrace& trace,
+  bool stand_at([[maybe_unused]] const workload::QueryTrace& trace,
                 [[maybe_unused]] std::size_t step) noexcept override {
-    if constexpr (StandsInSchedules<D>) detector_->stand_at(trace.schedule, step);
+    if constexpr (StandsInSchedules<D>) return detector_->stand_at(trace.schedule, step);
+    return false;
   }
   bool prepares_after_moves() const noexcept override { return StandsInSchedules<D> && Prepares<D>; }
-  void prepare_after_moves() noexcept override {
-    if constexpr (StandsInSchedules<D> && Prepares<D>) detector_->prepare(*session_);
+  void prepare_next() noexcept override {
+    if constexpr ((StandsInSchedules<D> || prefetch == Prefetch::on) && Prepares<D>)
+      detector_->prepare(*session_);
   }
 
   bool answers(workload::Query query) const noexcept override {
@@ -109,7 +111,10 @@ class ContestantOf final : public Contestant {
     return AnswersTouches<D> && AnswersSweep<D> && AnswersContacts<D>;
   }
   bool touches([[maybe_unused]] const Probe& probe) noexcept override {
-    if constexpr (AnswersTouches<D>) return detector_->touches(probe, *session_);
+    if constexpr (requires { detector_->touches_some(probe, *session_); })
+      return detector_->touches_some(probe, *session_);
+    else if constexpr (AnswersTouches<D>)
+      return detector_->touches(probe, *session_);
     return false;
   }
   std::optional<Impact> first_hit([[maybe_unused]] const Sweep& sweep) noexcept override {

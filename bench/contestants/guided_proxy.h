@@ -30,6 +30,11 @@ class AskedContestant {
     return contestant_->contacts(probe, reach, into);
   }
   void update(const TriangleMesh& mesh) { contestant_->update(mesh); }
+  bool stand_at(const workload::QueryTrace& trace, std::size_t step) noexcept {
+    return contestant_->stand_at(trace, step);
+  }
+  bool prepares() const noexcept { return contestant_->prepares() || contestant_->prepares_after_moves(); }
+  void prepare_next() noexcept { contestant_->prepare_next(); }
   Work work() const { return contestant_->work(); }
   LimitedWork* limited_work(Session&) const noexcept { return contestant_->limited_work(); }
 
@@ -40,12 +45,14 @@ class AskedContestant {
 /// A proxy with all that it refers to.
 class GuidedProxy {
  public:
-  /// The contestant must guide proxies. `mesh` is what it was built of.
-  GuidedProxy(std::unique_ptr<Contestant> contestant, TriangleMesh mesh, const Coupling& coupling)
+  /// The contestant must guide proxies. `mesh` is what it was built of; none: a scene, where no force is
+  /// shaded.
+  GuidedProxy(std::unique_ptr<Contestant> contestant, std::optional<TriangleMesh> mesh,
+              const Coupling& coupling)
       : mesh_(std::move(mesh)),
-        shading_(mesh_),
+        shading_(mesh_ ? std::optional<ForceShading>(*mesh_) : std::nullopt),
         detector_(std::move(contestant)),
-        proxy_(detector_, coupling, &mesh_, &shading_) {}
+        proxy_(detector_, coupling, mesh_ ? &*mesh_ : nullptr, shading_ ? &*shading_ : nullptr) {}
   GuidedProxy(const GuidedProxy&) = delete;
   GuidedProxy& operator=(const GuidedProxy&) = delete;
 
@@ -59,14 +66,22 @@ class GuidedProxy {
   void update(const TriangleMesh& mesh) {
     detector_.update(mesh);
     mesh_ = mesh;
-    shading_ = ForceShading(mesh_);
-    proxy_.surface_moved(&mesh_);
+    shading_.emplace(*mesh_);
+    proxy_.surface_moved(&*mesh_);
   }
+  /// Does what a loop does before it reads its device: moves the bodies of a scene to where they are at this
+  /// step, and prepares.
+  void get_ready(const workload::QueryTrace& trace, std::size_t step) noexcept {
+    if (detector_.stand_at(trace, step)) proxy_.surface_moved();
+    detector_.prepare_next();
+  }
+  /// True if getting ready is work, too.
+  bool prepares() const noexcept { return detector_.prepares(); }
   Work work() const { return detector_.work(); }
 
  private:
-  TriangleMesh mesh_;
-  ForceShading shading_;
+  std::optional<TriangleMesh> mesh_;
+  std::optional<ForceShading> shading_;
   AskedContestant detector_;
   AskedContestant::Session session_;
   Proxy<AskedContestant> proxy_;

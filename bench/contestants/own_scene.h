@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,11 @@ class OwnScene {
   std::optional<BodyImpact> first_hit_body(const Sweep& sweep,
                                            Session& session) const noexcept requires AnswersSweep<D> {
     return scene_.first_hit_body(sweep, session);
+  }
+  bool touches(const Probe& probe, Session& session) const noexcept { return scene_.touches(probe, session); }
+  std::size_t contacts(const Probe& probe, double reach, Session& session,
+                       std::span<Contact> into) const noexcept {
+    return scene_.contacts(probe, reach, session, into);
   }
   void prepare(Session& session) const noexcept requires Prepares<D> { scene_.prepare(session); }
   std::size_t bytes() const noexcept { return scene_.bytes(); }

@@ -42,6 +42,16 @@ concept SweepsScene = PlayableScene<S> &&
 };
 
 template <class S>
+concept GuidesProxyInScene = SweepsScene<S> &&
+    requires(const S& scene, const Probe& probe, double reach, typename S::Session& session,
+             std::span<Contact> into) {
+  { scene.touches(probe, session) }
+  noexcept->std::same_as<bool>;
+  { scene.contacts(probe, reach, session, into) }
+  noexcept->std::same_as<std::size_t>;
+};
+
+template <class S>
 concept PreparesScene = PlayableScene<S> && requires(const S& scene, typename S::Session& session) {
   { scene.prepare(session) }
   noexcept->std::same_as<void>;
@@ -65,7 +75,8 @@ class ScenePlayer {
     return {{{std::make_shared<const TriangleMesh>(mesh)}, {{0, Pose()}}}, options};
   }
 
-  void stand_at(const scenes::ScheduleView* schedule, std::size_t step) {
+  /// Returns true if bodies were moved.
+  bool stand_at(const scenes::ScheduleView* schedule, std::size_t step) {
     bool moved = false;
     const auto place = [&](std::uint32_t body, const Pose& pose) {
       scene_.place(body, pose);
@@ -74,11 +85,16 @@ class ScenePlayer {
     follower_.stand_at(schedule, step, place, [&](std::uint32_t body) { return starts_[body]; });
     if constexpr (requires { scene_.publish(); })
       if (moved) scene_.publish();
+    return moved;
   }
 
   /// The contact that decides is told, too: the body of a touch is the nearest one.
   bool touches(const Probe& probe, Session& session) const noexcept {
     return nearest(probe, probe.radius, session).has_value();
+  }
+  /// As a proxy asks: the body is not told.
+  bool touches_some(const Probe& probe, Session& session) const noexcept requires GuidesProxyInScene<S> {
+    return scene_.touches(probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     const std::optional<BodyContact> found = scene_.nearest_body(probe, reach, session);
@@ -92,6 +108,11 @@ class ScenePlayer {
     if (!found) return std::nullopt;
     session.body = found->body.index;
     return found->impact;
+  }
+
+  std::size_t contacts(const Probe& probe, double reach, Session& session,
+                       std::span<Contact> into) const noexcept requires GuidesProxyInScene<S> {
+    return scene_.contacts(probe, reach, session, into);
   }
 
   void prepare(Session& session) const noexcept requires PreparesScene<S> { scene_.prepare(session); }

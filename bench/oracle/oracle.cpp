@@ -213,8 +213,10 @@ bool Oracle::within(std::uint32_t triangle, const Vec3& center, double radius) c
   return compare_distance(center, corners, radius) <= 0;
 }
 
-bool Oracle::segment_within(const Vec3& from, const Vec3& to, double radius) const {
+/// At most as near as the radius, or nearer.
+bool Oracle::segment_comes(const Vec3& from, const Vec3& to, double radius, bool nearer) const {
   if (!from.allFinite() || !to.allFinite() || !(radius >= 0)) return false;
+  const auto is_below = [&](double distance) { return nearer ? distance < radius : distance <= radius; };
   bool surely = false;
   double limit = radius;
   std::vector<std::uint32_t> doubtful;
@@ -225,15 +227,17 @@ bool Oracle::segment_within(const Vec3& from, const Vec3& to, double radius) con
                            // This costs far less than the interval.
                            if (distance_of_boxes_below(box_of(corners), from, to) > radius) return;
                            const Interval distance = segment_distance_interval(from, to, corners);
-                           if (distance.hi <= radius) {
+                           if (is_below(distance.hi)) {
                              surely = true;
                              limit = -1;  // nothing more to visit
-                           } else if (distance.lo <= radius) {
+                           } else if (is_below(distance.lo)) {
                              doubtful.push_back(triangle);
                            }
                          });
   return surely || std::any_of(doubtful.begin(), doubtful.end(), [&](std::uint32_t triangle) {
-           return compare_segment_distance(from, to, triangle_of(mesh(), triangle), radius) <= 0;
+           const std::strong_ordering order =
+               compare_segment_distance(from, to, triangle_of(mesh(), triangle), radius);
+           return nearer ? order < 0 : order <= 0;
          });
 }
 

@@ -39,7 +39,13 @@ class Oracle : public Reference {
   bool within(std::uint32_t triangle, const Vec3& center, double radius) const override;
   /// Returns true if the segment comes within `radius` of the mesh. Exact likewise; false when a coordinate
   /// is not finite.
-  bool segment_within(const Vec3& from, const Vec3& to, double radius) const override;
+  bool segment_within(const Vec3& from, const Vec3& to, double radius) const override {
+    return segment_comes(from, to, radius, false);
+  }
+  /// Returns true if the segment comes nearer than `radius`. Exact likewise.
+  bool segment_nearer(const Vec3& from, const Vec3& to, double radius) const override {
+    return segment_comes(from, to, radius, true);
+  }
 
   /// Returns true if the sweep touches before that fraction of its path, of the points from + fraction (to -
   /// from) as they are, none rounded. Exact likewise; but a ball that slides at the very radius since less
@@ -74,6 +80,7 @@ class Oracle : public Reference {
 
  private:
   struct Structure;
+  bool segment_comes(const Vec3& from, const Vec3& to, double radius, bool nearer) const;
   /// Returns true if there is one, of the triangles near to the path up to the fraction (or only to its end),
   /// of which that holds.
   template <class Holds>

@@ -47,6 +47,17 @@ bool is_within(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle,
          !(is_inside_by(from, triangle, radius) && is_inside_by(to, triangle, radius));
 }
 
+bool is_nearer(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle, double radius) {
+  const Interval distance = bounds_of(from, to, triangle);
+  if (distance.hi < radius) return true;
+  if (distance.lo >= radius) return false;
+  const auto is_far_inside = [&](const Vec3& end) {
+    return radius <= triangle.radius && compare_distance(end, triangle, triangle.radius, -radius) <= 0;
+  };
+  return compare_segment_distance(from, to, triangle, radius, triangle.radius) < 0 &&
+         !(is_far_inside(from) && is_far_inside(to));
+}
+
 bool is_within_on_path(const Sweep& sweep, double fraction, const PlacedTriangle& triangle, double radius) {
   const auto compare = [&](double more) {
     return compare_distance_on_path(sweep.from, sweep.to, fraction, triangle, triangle.radius, more);

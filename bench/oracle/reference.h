@@ -53,6 +53,8 @@ class Reference {
 
   /// Returns true if the segment comes within `radius`.
   virtual bool segment_within(const Vec3& from, const Vec3& to, double radius) const = 0;
+  /// Returns true if the segment comes nearer than `radius`.
+  virtual bool segment_nearer(const Vec3& from, const Vec3& to, double radius) const = 0;
   /// Returns true if the sweep touches before that fraction of its path, of the points from + fraction (to -
   /// from) as they are, none rounded; but a ball that slides at the very radius since less than the
   /// fraction's last digit ago is taken to touch there.

@@ -198,6 +198,12 @@ bool SceneOracle::segment_within(const Vec3& from, const Vec3& to, double radius
                          [&](const PlacedTriangle& one) { return is_within(from, to, one, radius); });
 }
 
+bool SceneOracle::segment_nearer(const Vec3& from, const Vec3& to, double radius) const {
+  if (!from.allFinite() || !to.allFinite() || !(radius >= 0)) return false;
+  return structure_->any(from, to, radius,
+                         [&](const PlacedTriangle& one) { return is_nearer(from, to, one, radius); });
+}
+
 bool SceneOracle::touches_before(const Sweep& sweep, double fraction) const {
   return fraction > 0 &&
          structure_->any_on_path(sweep, fraction, false, sweep.radius, [&](const PlacedTriangle& one) {

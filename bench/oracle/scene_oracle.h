@@ -40,6 +40,7 @@ class SceneOracle final : public Reference {
   bool within(std::uint32_t triangle, const Vec3& center, double radius) const override;
   std::vector<std::uint32_t> all_within(const Vec3& center, double radius) const override;
   bool segment_within(const Vec3& from, const Vec3& to, double radius) const override;
+  bool segment_nearer(const Vec3& from, const Vec3& to, double radius) const override;
   bool touches_before(const Sweep& sweep, double fraction) const override;
   bool within_on_path(const Sweep& sweep, double fraction, double radius) const override;
   bool surely_crosses(const Vec3& from, const Vec3& to, double margin) const override;

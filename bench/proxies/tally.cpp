@@ -40,8 +40,9 @@ bool Judge::violates(const Vec3& position) const {
                             : oracle_->meets(position, position);
 }
 
-void Judge::see(const WayOracle& oracle) {
+void Judge::see(const WayOracle& oracle, const std::function<void()>& move) {
   const bool was_fine = oracle_ == nullptr || excused_ || !violates(position_);
+  move();
   oracle_ = &oracle;
   excused_ = was_fine && violates(position_);
   clear_at_ = position_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -49,8 +50,10 @@ class Judge {
       : course_(course), optima_(optima), coupling_(coupling), tally_(tally), position_(course.start) {}
 
   /// To be called before the first tick and whenever the mesh has moved. What the surface does to a proxy
-  /// that rests is not the method's doing: until it is off again its ticks count for neither.
-  void see(const WayOracle& oracle);
+  /// that rests is not the method's doing: until it is off again its ticks count for neither. `move` moves
+  /// what the oracle of before knows, where it is the same.
+  void see(
+      const WayOracle& oracle, const std::function<void()>& move = [] {});
   void tick(std::size_t index, const Step& step);
 
  private:

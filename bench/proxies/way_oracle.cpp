@@ -1,56 +1,51 @@
 #include "bench/proxies/way_oracle.h"
 
 #include <algorithm>
-#include <vector>
+#include <cstdint>
+#include <utility>
 
 #include <Eigen/Geometry>
 
-#include "bench/oracle/exact/exact_distance.h"
-#include "bench/oracle/exact/interval_distance.h"
+#include "bench/ground_truth/scene_truths.h"
 
 namespace touchmark::bench::proxies {
 
-WayOracle::WayOracle(const TriangleMesh& mesh) : mesh_(mesh), oracle_(mesh_, 1), tree_(mesh_) {}
+WayOracle::WayOracle(const TriangleMesh& mesh) : mesh_(mesh), diagonal_(mesh.diagonal()) {
+  oracle_.emplace(*mesh_, 1);
+}
 
-bool WayOracle::is_nearer(const Vec3& from, const Vec3& to, double radius) const {
-  if (!from.allFinite() || !to.allFinite() || !(radius > 0)) return false;
-  bool surely = false;
-  double limit = radius;
-  std::vector<oracle::Triangle> doubtful;
-  tree_.visit([&](const oracle::Box& box) { return oracle::distance_below(box, from, to); }, limit,
-              [&](std::uint32_t index) {
-                if (surely) return;
-                const oracle::Triangle triangle = oracle::triangle_of(mesh_, index);
-                // This costs far less than the interval.
-                if (oracle::distance_of_boxes_below(oracle::box_of(triangle), from, to) > radius) return;
-                const oracle::Interval distance = oracle::segment_distance_interval(from, to, triangle);
-                if (distance.hi < radius) {
-                  surely = true;
-                  limit = -1;  // nothing more to visit
-                } else if (distance.lo < radius) {
-                  doubtful.push_back(triangle);
-                }
-              });
-  return surely || std::any_of(doubtful.begin(), doubtful.end(), [&](const oracle::Triangle& triangle) {
-           return oracle::compare_segment_distance(from, to, triangle, radius) < 0;
-         });
+WayOracle::WayOracle(scenes::PlacedScene scene, scenes::ScheduleView schedule) {
+  oracle::SceneOracle oracle = ground_truth::scene_oracle(scene);
+  bodies_.emplace(Bodies{std::move(scene), std::move(oracle), schedule});
+  stand_at(0);
+  diagonal_ = (bodies_->oracle.bounds().max - bodies_->oracle.bounds().min).norm();
+}
+
+void WayOracle::stand_at(std::size_t step) {
+  if (!bodies_) return;
+  bodies_->follower.stand_at(
+      &bodies_->schedule, step,
+      [&](std::uint32_t body, const Pose& pose) { bodies_->oracle.place(body, pose); },
+      [&](std::uint32_t body) { return bodies_->scene.bodies[body].start; });
 }
 
 double WayOracle::shortfall(const Vec3& at, double radius) const {
   if (!is_nearer(at, at, radius)) return 0;
-  const oracle::GroundTruth truth = oracle_.solve(at);
+  const oracle::GroundTruth truth = reference().solve(at);
   return (radius - truth.high) - truth.low;
 }
 
 WayOracle::WayOut WayOracle::way_out(const Vec3& at) const {
-  const oracle::GroundTruth truth = oracle_.solve(at);
+  const oracle::GroundTruth truth = reference().solve(at);
   Vec3 direction = truth.direction;
   if (direction.isZero()) {
-    const Vec3 corner = mesh_.corner(truth.triangle, 0);
-    direction = (mesh_.corner(truth.triangle, 1) - corner)
-                    .cross(mesh_.corner(truth.triangle, 2) - corner)
-                    .stableNormalized();
-    // A triangle without an area: any way out of the box will do.
+    if (mesh_) {
+      const Vec3 corner = mesh_->corner(truth.triangle, 0);
+      direction = (mesh_->corner(truth.triangle, 1) - corner)
+                      .cross(mesh_->corner(truth.triangle, 2) - corner)
+                      .stableNormalized();
+    }
+    // A triangle without an area, or a body's: any way out of the box will do.
     if (direction.isZero()) direction = Vec3::UnitZ();
   } else if (side(at) == Side::inside) {
     direction = -direction;

@@ -2,11 +2,13 @@
 /// core/geometry.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 
 #include "bench/oracle/oracle.h"
-#include "bench/oracle/triangle_tree.h"
+#include "bench/oracle/scene_oracle.h"
+#include "bench/scenes/schedule.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::proxies {
@@ -14,26 +16,30 @@ namespace touchmark::bench::proxies {
 class WayOracle {
  public:
   explicit WayOracle(const TriangleMesh& mesh);
+  /// Knows bodies as they stand at the first step of a schedule, whose moves must outlive it.
+  WayOracle(scenes::PlacedScene scene, scenes::ScheduleView schedule);
   WayOracle(const WayOracle&) = delete;
   WayOracle& operator=(const WayOracle&) = delete;
 
   /// Returns true if the segment and a triangle have a point in common, sides, corners and ends included.
-  bool meets(const Vec3& from, const Vec3& to) const { return oracle_.segment_within(from, to, 0); }
+  bool meets(const Vec3& from, const Vec3& to) const { return reference().segment_within(from, to, 0); }
   /// Returns true if the segment comes within the radius: at most so near.
   bool is_within(const Vec3& from, const Vec3& to, double radius) const {
-    return oracle_.segment_within(from, to, radius);
+    return reference().segment_within(from, to, radius);
   }
   /// Returns true if the segment comes nearer than the radius.
-  bool is_nearer(const Vec3& from, const Vec3& to, double radius) const;
+  bool is_nearer(const Vec3& from, const Vec3& to, double radius) const {
+    return reference().segment_nearer(from, to, radius);
+  }
   /// Returns true if the segment passes a triangle's inside with both ends and its sides at least `margin`
   /// away: no rounding explains it.
   bool surely_crosses(const Vec3& from, const Vec3& to, double margin) const {
-    return oracle_.surely_crosses(from, to, margin);
+    return reference().surely_crosses(from, to, margin);
   }
   /// How much nearer to the surface than the radius the position is; 0 where it is not. Rounded.
   double shortfall(const Vec3& at, double radius) const;
-  /// The side of a closed mesh; nothing where it is not closed.
-  std::optional<Side> side(const Vec3& at) const { return oracle_.side(at); }
+  /// The side of a closed mesh; nothing where it is not closed, and among bodies.
+  std::optional<Side> side(const Vec3& at) const { return reference().side(at); }
 
   /// The nearest place of the mesh, and a unit vector from there away from the mesh, over the position where
   /// that is outside or not known to be inside.
@@ -42,12 +48,26 @@ class WayOracle {
   };
   WayOut way_out(const Vec3& at) const;
 
-  double diagonal() const { return mesh_.diagonal(); }
+  double diagonal() const { return diagonal_; }
+
+  /// Moves bodies to where they are at a step of their schedule.
+  void stand_at(std::size_t step);
 
  private:
-  TriangleMesh mesh_;
-  oracle::Oracle oracle_;
-  oracle::TriangleTree tree_;
+  struct Bodies {
+    scenes::PlacedScene scene;
+    oracle::SceneOracle oracle;
+    scenes::ScheduleView schedule;
+    scenes::ScheduleFollower follower = {};
+  };
+  const oracle::Reference& reference() const {
+    return bodies_ ? static_cast<const oracle::Reference&>(bodies_->oracle) : *oracle_;
+  }
+
+  std::optional<TriangleMesh> mesh_;  ///< as `oracle_` alone there
+  std::optional<oracle::Oracle> oracle_;
+  std::optional<Bodies> bodies_;
+  double diagonal_;
 };
 
 /// Returns where a proxy that is to follow these goals, at least one, is free from the start: farther than

@@ -92,9 +92,11 @@ class Worker {
     return clock_steps(*contestant_, trace_of(request.task), ranges_of(request.task), *buffers_);
   }
   ServoStretch handle(const request::Servo& request) {
-    return run_servo(
-        *contestant_, proxy_, [&] { return read_mesh(input_.bytes(), layout_); }, trace_of(request.task),
-        request, *buffers_);
+    const auto mesh = [&]() -> std::optional<TriangleMesh> {
+      if (layout_.bodies > 0) return std::nullopt;
+      return read_mesh(input_.bytes(), layout_);
+    };
+    return run_servo(*contestant_, proxy_, mesh, trace_of(request.task), request, *buffers_);
   }
   ColdSamples handle(const request::Cold& request) {
     return run_cold(*contestant_, trace_of(request.task), ranges_of(request.task), request, *buffers_,

@@ -53,13 +53,14 @@ void add_proxy_options(CLI::App& command, ServoOptions& options) {
   CLI::Option* stepped = command.add_flag(
       "--proxy", options.proxy,
       "a tick is the whole step of a proxy (touchmark proxy) that follows the trajectory, and not a query");
-  for (const char* other : {"--query", "--reach", "--scene"}) stepped->excludes(command.get_option(other));
+  for (const char* other : {"--query", "--reach"}) stepped->excludes(command.get_option(other));
   add_value(command, "--method", options.method, "M",
             "with --proxy: certified, the only one that servo steps")
       ->needs(stepped);
   add_coupling(command, options.coupling);
   for (const char* name : {"--stiffness", "--friction", "--damping", "--shading"})
     command.get_option(name)->needs(stepped);
+  command.get_option("--shading")->excludes(command.get_option("--scene"));
 }
 
 }  // namespace

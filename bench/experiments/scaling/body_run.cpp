@@ -97,7 +97,7 @@ std::vector<workload::Answer> answers_of(contestants::Contestant& contestant,
   contestant.forget();
   for (std::size_t begin = 0; begin < answers.size(); begin += ticks_a_frame) {
     contestant.stand_at(trace, begin);
-    if (prepared) contestant.prepare_after_moves();
+    if (prepared) contestant.prepare_next();
     contestant.answer(trace, {begin, begin + ticks_a_frame}, std::span(answers).subspan(begin, ticks_a_frame),
                       work);
   }
@@ -148,7 +148,7 @@ BodyRun::Times BodyRun::time_round(contestants::Contestant& contestant, const Bo
     read_ahead(trace, {begin, begin + ticks_a_frame});
     if (prepared) {
       const auto published = Steady::now();
-      contestant.prepare_after_moves();
+      contestant.prepare_next();
       times.preparing.push_back(1e9 * seconds_since(published));
     }
     // All by one loop: another one for later ticks would be out of the caches after a frame, and in their

@@ -14,20 +14,21 @@ const std::vector<Vec3> unknown_optima;
 
 }  // namespace
 
-ProxyReplay::ProxyReplay(const workload::Workload& workload, const proxies::WayOracle& oracle,
+ProxyReplay::ProxyReplay(const workload::Workload& workload, std::shared_ptr<proxies::WayOracle> oracle,
                          std::unique_ptr<contestants::Contestant> contestant, const Coupling& coupling,
                          const Vec3& start)
-    : workload_(workload),
-      oracle_(oracle),
+    : schedule_(workload.scene ? workload.schedules.front().view() : scenes::ScheduleView()),
+      trace_{workload::Query::nearest, workload.traces.front(), workload.scene ? &schedule_ : nullptr},
+      oracle_(std::move(oracle)),
       coupling_(coupling),
-      proxy_(std::move(contestant), workload.mesh, coupling),
+      proxy_(std::move(contestant), workload.scene ? std::nullopt : std::optional(workload.mesh), coupling),
       course_{"", workload.mesh, coupling.radius, 0, start, {}} {}
 
 void ProxyReplay::place() {
   proxy_.place(course_.start);
   course_.goals.clear();
   judge_ = std::make_unique<proxies::Judge>(course_, unknown_optima, coupling_, tally_);
-  judge_->see(oracle_);
+  judge_->see(*oracle_);
 }
 
 bool ProxyReplay::follow(std::span<const workers::TickRecord> ticks) {
@@ -35,7 +36,9 @@ bool ProxyReplay::follow(std::span<const workers::TickRecord> ticks) {
   for (const workers::TickRecord& tick : ticks) {
     if (tick.asked == 0) continue;
     support::check_for_interrupt();
-    const Vec3& goal = workload_.traces.front()[tick.step].probe.center;
+    const Vec3& goal = trace_.steps[tick.step].probe.center;
+    proxy_.get_ready(trace_, tick.step);
+    if (trace_.schedule != nullptr) judge_->see(*oracle_, [&] { oracle_->stand_at(tick.step); });
     const std::uint64_t before = proxy_.work().total();
     const ProxyState& state = proxy_.step(goal);
     const std::uint64_t work = proxy_.work().total() - before;

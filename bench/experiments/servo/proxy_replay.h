@@ -20,8 +20,9 @@ namespace touchmark::bench::experiments::servo {
 /// those of the loop where the checksums are the same.
 class ProxyReplay {
  public:
-  /// Over the first trace. `workload` and `oracle` must outlive it; the contestant must guide proxies.
-  ProxyReplay(const workload::Workload& workload, const proxies::WayOracle& oracle,
+  /// Over the first trace. `workload` must outlive it, and the contestant must guide proxies. The oracle is
+  /// its own where bodies move.
+  ProxyReplay(const workload::Workload& workload, std::shared_ptr<proxies::WayOracle> oracle,
               std::unique_ptr<contestants::Contestant> contestant, const Coupling& coupling,
               const Vec3& start);
 
@@ -35,8 +36,9 @@ class ProxyReplay {
   std::uint64_t work_max() const noexcept { return work_max_; }
 
  private:
-  const workload::Workload& workload_;
-  const proxies::WayOracle& oracle_;
+  scenes::ScheduleView schedule_;
+  workload::QueryTrace trace_;
+  std::shared_ptr<proxies::WayOracle> oracle_;
   Coupling coupling_;
   contestants::GuidedProxy proxy_;
   proxies::Course course_;  ///< its goals are those of the last tick and of the one before

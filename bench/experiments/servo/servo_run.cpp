@@ -87,20 +87,27 @@ void ServoRun::verify(std::size_t contestant, ground_truth::TraceTruths& truths)
 }
 
 void ServoRun::begin_proxies(const std::function<void(const std::string&)>& progress) {
-  way_oracle_.emplace(workload_.mesh);
-  start_ = proxies::free_start(*way_oracle_, goals_of(workload_), settings_.proxy->radius);
+  std::optional<scenes::PlacedScene> scene;
+  if (workload_.scene) scene = scenes::placed(*workload_.scene);
+  const auto new_oracle = [&] {
+    return scene ? std::make_shared<proxies::WayOracle>(*scene, workload_.schedules.front().view())
+                 : std::make_shared<proxies::WayOracle>(workload_.mesh);
+  };
+  const std::shared_ptr<proxies::WayOracle> oracle = new_oracle();
+  start_ = proxies::free_start(*oracle, goals_of(workload_), settings_.proxy->radius);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     progress(rows_[i].contestant());
     attempt(i, [&] {
       rows_[i].accuracy = processes_[i].build().accuracy;
       std::unique_ptr<contestants::Contestant> contestant;
       if (processes_[i].spec().plugin.empty())
-        contestant = roster_.build(processes_[i].spec(), workload_.mesh);
+        contestant = scene ? roster_.build(processes_[i].spec(), *scene)
+                           : roster_.build(processes_[i].spec(), workload_.mesh);
       if (contestant == nullptr || !contestant->guides_proxy())
         rows_[i].status = "unsupported";
       else
-        replays_[i] = std::make_unique<ProxyReplay>(workload_, *way_oracle_, std::move(contestant),
-                                                    *settings_.proxy, start_);
+        replays_[i] = std::make_unique<ProxyReplay>(workload_, scene ? new_oracle() : oracle,
+                                                    std::move(contestant), *settings_.proxy, start_);
     });
   }
 }

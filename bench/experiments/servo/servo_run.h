@@ -67,8 +67,7 @@ class ServoRun {
   std::vector<ServoRow> rows_;
   std::vector<std::vector<std::uint64_t>> checksums_;  // of each contestant's verified answers, by step
   std::vector<std::uint64_t> next_tick_;               // where on the trajectory each contestant is
-  std::optional<proxies::WayOracle> way_oracle_;       // of proxies, as what follows
-  Vec3 start_ = Vec3::Zero();                          // where they begin
+  Vec3 start_ = Vec3::Zero();                          // where proxies begin
   std::vector<std::unique_ptr<ProxyReplay>> replays_;
 };
 

@@ -30,6 +30,8 @@ void step_paced(contestants::GuidedProxy& proxy, const workload::QueryTrace& tra
                 PacedReplay& pacer) noexcept {
   Work seen = proxy.work();
   while (const std::optional<std::size_t> step = pacer.next()) {
+    proxy.get_ready(trace, *step);
+    if (proxy.prepares()) seen = proxy.work();
     const Vec3 goal = trace.steps[*step].probe.center;    // which has just been read from the device
     std::atomic_signal_fence(std::memory_order_seq_cst);  // read, and not later
     const std::uint64_t before = contestants::TickClock::now();
@@ -44,8 +46,9 @@ void step_paced(contestants::GuidedProxy& proxy, const workload::QueryTrace& tra
 }
 
 ServoStretch run_servo(contestants::Contestant& contestant, std::optional<contestants::GuidedProxy>& proxy,
-                       const std::function<TriangleMesh()>& mesh, const workload::QueryTrace& trace,
-                       const request::Servo& request, const OutputBuffers& buffers) {
+                       const std::function<std::optional<TriangleMesh>()>& mesh,
+                       const workload::QueryTrace& trace, const request::Servo& request,
+                       const OutputBuffers& buffers) {
   ServoStretch stretch;
   if (request.proxy.wanted && !request.idle && !proxy) {
     proxy.emplace(contestant.share(), mesh(), request.proxy.coupling);

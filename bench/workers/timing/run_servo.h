@@ -13,12 +13,14 @@
 namespace touchmark::bench::workers {
 
 /// The tick records lie in the buffers then. The first stretch of the process locks its memory. The first
-/// that steps a proxy makes it, of the contestant and its mesh, and places it.
+/// that steps a proxy makes it, of the contestant and its mesh, if it has one, and places it.
 ServoStretch run_servo(contestants::Contestant& contestant, std::optional<contestants::GuidedProxy>& proxy,
-                       const std::function<TriangleMesh()>& mesh, const workload::QueryTrace& trace,
-                       const request::Servo& request, const OutputBuffers& buffers);
+                       const std::function<std::optional<TriangleMesh>()>& mesh,
+                       const workload::QueryTrace& trace, const request::Servo& request,
+                       const OutputBuffers& buffers);
 
 /// Steps the proxy after the goals that the pacer names; the clock is read before and after the whole step.
+/// Before, bodies are moved to where they are at the goal's step, and what prepares does.
 void step_paced(contestants::GuidedProxy& proxy, const workload::QueryTrace& trace,
                 PacedReplay& pacer) noexcept;
 

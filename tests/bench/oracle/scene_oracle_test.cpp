@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <utility>
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -66,6 +67,8 @@ TEST(SceneOracle, MeasuresToTheExactImageOfAPoint) {
                 exact <= mpq_class(truth.high) * mpq_class(truth.high));
       EXPECT_EQ(oracle.segment_within(center, center, truth.high),
                 exact <= mpq_class(truth.high) * mpq_class(truth.high));
+      EXPECT_EQ(oracle.segment_nearer(center, center, truth.high),
+                exact < mpq_class(truth.high) * mpq_class(truth.high));
     }
   }
 }
@@ -88,6 +91,13 @@ TEST(SceneOracle, MeasuresToASurfaceFromEitherSide) {
   EXPECT_FALSE(oracle.segment_within({0, 1, 0}, {0, -1, 0}, 0.5)) << "inside all the way";
   EXPECT_TRUE(oracle.segment_within({-5, 2, 0}, {5, 2, 0}, 0)) << "it grazes";
   EXPECT_FALSE(oracle.segment_within({-5, std::nextafter(2, 3), 0}, {5, std::nextafter(2, 3), 0}, 0));
+  const double more = std::nextafter(1, 2);
+  for (const auto& [from, to] : {std::pair(Vec3(-5, 3, 0), Vec3(5, 3, 0)), {{0, 1, 0}, {0, -1, 0}}}) {
+    EXPECT_TRUE(oracle.segment_within(from, to, 1));
+    EXPECT_FALSE(oracle.segment_nearer(from, to, 1)) << "as near, and no nearer";
+    EXPECT_TRUE(oracle.segment_nearer(from, to, more));
+  }
+  EXPECT_FALSE(oracle.segment_nearer({0, 1, 0}, {0, 3, 0}, 0)) << "it crosses, and nothing is nearer than 0";
   const Sweep out{{0, 0, 0}, {0, 4, 0}, 1};
   EXPECT_FALSE(oracle.touches_before(out, 0.25)) << "at 1 of 4 it is one radius below the surface";
   EXPECT_TRUE(oracle.touches_before(out, 0.26));

@@ -29,8 +29,9 @@ class Noting {
     notes_->push_back(asked);
     return std::nullopt;
   }
-  void stand_at(const scenes::ScheduleView*, std::size_t step) noexcept {
+  bool stand_at(const scenes::ScheduleView*, std::size_t step) noexcept {
     notes_->push_back(static_cast<int>(step));
+    return true;
   }
   std::size_t bytes() const noexcept { return 0; }
   Accuracy accuracy() const noexcept { return {}; }

@@ -69,8 +69,10 @@ TEST_F(Servo, ASecondEndsWithItsVerdictAsLastLineAndStatus) {
 }
 
 TEST_F(Servo, FollowsAHandWhereNoMotionIsNamed) {
-  for (const Fields& asked :
-       {Fields{"--mesh", "icosphere:2"}, {"--mesh", "icosphere:2", "--proxy"}, {"--scene", "heap:3"}}) {
+  for (const Fields& asked : {Fields{"--mesh", "icosphere:2"},
+                              {"--mesh", "icosphere:2", "--proxy"},
+                              {"--scene", "heap:3"},
+                              {"--scene", "heap:3", "--proxy"}}) {
     Fields command{"servo", "--seconds", "0.1", "--out", folder_.file("out")};
     command.insert(command.end(), asked.begin(), asked.end());
     run_touchmark(command);
@@ -199,6 +201,31 @@ TEST_F(Servo, RunsOverBodiesThatMove) {
   expect_valid();
 }
 
+TEST_F(Servo, StepsAProxyAmongBodiesThatMoveAndJudgesEveryStep) {
+  const Outcome outcome =
+      run_touchmark({"servo", "--proxy", "--scene", "heap:30:motion=all", "--radius", "0.5%", "--detector",
+                     "sphere-cluster", "--detector", "grid-group", "--detector", "looped", "--seconds", "0.3",
+                     "--steps", "100", "--out", folder_.file("out")});
+  EXPECT_EQ(outcome.status, 1) << outcome.err << "looped answers no contacts, and guides no proxy";
+  const auto rows = read("servo.csv");
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[2].at("status"), "unsupported");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& row = rows[i];
+    EXPECT_EQ(row.at("status"), "ok") << row.at("detector");
+    EXPECT_EQ(row.at("mesh"), "heap:30:motion=all");
+    EXPECT_EQ(row.at("query"), "proxy");
+    EXPECT_EQ(row.at("ticks"), "300");
+    EXPECT_NE(row.at("query_ns_max"), "");
+    EXPECT_GE(std::stoi(row.at("judged_ticks")) + std::stoi(row.at("lost_ticks")), 300);
+    EXPECT_EQ(row.at("crossings") + row.at("violations"), "00");
+    EXPECT_GT(std::stoi(row.at("contact_ticks")), 0) << "a hand presses";
+    EXPECT_NE(outcome.out.find("none of " + row.at("judged_ticks") + " steps crossed"), std::string::npos)
+        << outcome.out;
+  }
+  expect_valid();
+}
+
 TEST_F(Servo, ADetectorThatGuidesNoProxyIsUnsupported) {
   const Outcome outcome = servo({"--proxy", "--detector", "fcl", "--seconds", "0.1"});
   EXPECT_EQ(outcome.status, 1) << outcome.out;
@@ -209,7 +236,8 @@ TEST_F(Servo, ADetectorThatGuidesNoProxyIsUnsupported) {
 TEST_F(Servo, RefusesWhatItCannotDo) {
   expect_bad_input({"servo", "--proxy", "--query", "touches"}, {"--query", "--proxy"});
   expect_bad_input({"servo", "--proxy", "--reach", "1"}, {"--reach", "--proxy"});
-  expect_bad_input({"servo", "--proxy", "--scene", "heap:3"}, {"--scene", "--proxy", "excludes"});
+  expect_bad_input({"servo", "--proxy", "--scene", "heap:3", "--shading", "1"},
+                   {"--scene", "--shading", "excludes"});
   expect_bad_input({"servo", "--scene", "heap:3", "--mesh", "cube"}, {"--scene", "--mesh"});
   expect_bad_input({"servo", "--scene", "heap:3", "--rate", "500"}, {"--rate", "500", "hand", "1000"});
   expect_bad_input({"servo", "--stiffness", "10"}, {"--stiffness", "--proxy"});
