@@ -19,7 +19,7 @@ struct Asked {
   void first_hit(const Sweep& sweep, PointMemory& memory, LimitedWork& work) const noexcept {
     queries::first_hit(surface, sweep, memory, work);
   }
-  void contacts(const Vec3& center, double reach, PointMemory& memory, Work& work) const noexcept {
+  void contacts(const Vec3& center, double reach, PointMemory& memory, LimitedWork& work) const noexcept {
     std::array<Contact, 16> into;
     queries::contacts(surface, center, reach, memory, into, false, work);
   }
