@@ -73,7 +73,7 @@ struct LimitedWork : Work {
   /// One exact decision takes about as long as this many looks.
   static constexpr std::uint64_t exact_weight = 64;
 
-  std::uint64_t limit = unlimited;  ///< of `spent`
+  std::uint64_t limit = unlimited;  ///< what `spent` may come to
   bool undecided = false;           ///< a query ended at the limit; who sets that clears this
 
   std::uint64_t spent() const noexcept { return total() + exact_weight * exact_decisions; }

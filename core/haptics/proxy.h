@@ -169,7 +169,7 @@ class Proxy {
 
   const D* detector_;
   ProxyMotion motion_;
-  LimitedWork* work_ = nullptr;  ///< of the session of this step, where that is limited
+  LimitedWork* work_ = nullptr;  ///< This step's, where it is limited.
 };
 
 }  // namespace touchmark

@@ -60,6 +60,14 @@ class Scene {
       typename D::Session session;
     };
     std::array<Asked, NearBodies::room + unlisted_room> asked;  ///< by slot; the last for what is not listed
+    /// Adds what a body's session has counted, and clears that.
+    void take_work(typename D::Session& own) noexcept {
+      if constexpr (keeps_to_limit)
+        work.take(own.work);
+      else
+        work += own.work;
+      own.work = {};
+    }
   };
 
   Scene() = default;
@@ -188,14 +196,6 @@ class Scene {
     }
     return asked.session;
   }
-  /// Adds what a body's session has counted, and clears that.
-  static void take_work(typename D::Session& own, Session& session) noexcept {
-    if constexpr (keeps_to_limit)
-      session.work.take(own.work);
-    else
-      session.work += own.work;
-    own.work = {};
-  }
   static constexpr double unknown = -std::numeric_limits<double>::infinity();
   /// Returns what `ask` does, within what is left of the session's limit: a bound of the body's distance, or
   /// `unknown`.
@@ -207,7 +207,7 @@ class Scene {
     typename D::Session& own = session_of(slot, body, session);
     if constexpr (keeps_to_limit) own.work = session.work.rest();
     const double lower = ask(*shape, body, seen, own);
-    take_work(own, session);
+    session.take_work(own);
     return lower;
   }
   template <class Ask>

@@ -276,7 +276,7 @@ void Scene<D>::prepare(Session& session) const noexcept requires Prepares<D> {
         bodies_.has(entry.id) && asked.epoch == bodies_.epoch() ? shapes_.built(asked.shape) : nullptr;
     if (shape == nullptr || shape->is_round() || asked.shape != bodies_[entry.id.index].shape) return;
     shape->detector->prepare(asked.session);
-    take_work(asked.session, session);
+    session.take_work(asked.session);
   }
 }
 

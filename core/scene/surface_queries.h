@@ -29,7 +29,7 @@ bool Scene<D>::list_surface(const Vec3& point, double reach, Session& session) c
     if (!shape->detector->list_triangles(seen.center(), seen.reach_in_frame(*radius, 0), own, listed) ||
         !list.add(body, seen, *shape->mesh, listed))
       list.leave_out(lower);
-    take_work(own, session);
+    session.take_work(own);
   };
   session.work.boxes += bodies_.tree().for_each_within(center, *radius, [&](std::uint32_t body) {
     ++session.work.bodies;

@@ -85,7 +85,7 @@ class ContactsWithin {
   }
   /// Returns how many triangles were shown that are within the reach; the nearest are in their order then.
   /// After `max_decisions` that is the order of the computed distances.
-  std::size_t finish(Work& work, std::uint64_t max_decisions = any_decisions) noexcept;
+  std::size_t finish(Work& work, std::uint64_t max_decisions = LimitedWork::unlimited) noexcept;
   /// Once finished: were there more exact decisions to make than it was allowed?
   bool ran_out() const noexcept { return exact_decisions_ >= max_decisions_; }
   struct Nearest {
@@ -96,7 +96,6 @@ class ContactsWithin {
   const std::optional<Nearest>& nearest() const noexcept { return nearest_; }
 
  private:
-  static constexpr std::uint64_t any_decisions = std::numeric_limits<std::uint64_t>::max();
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   /// A triangle within the reach, its distance as computed.
@@ -135,7 +134,7 @@ class ContactsWithin {
   double farthest_kept_ = infinite;                  ///< what is farther, as computed, is not kept
   std::array<Found, gathered_at_once> gathered_;
   std::optional<Nearest> nearest_;
-  std::uint64_t exact_decisions_ = 0, max_decisions_ = any_decisions;
+  std::uint64_t exact_decisions_ = 0, max_decisions_ = LimitedWork::unlimited;
 };
 
 }  // namespace touchmark
