@@ -6,6 +6,7 @@ From scripts/:  python3 -m drawing.algorithms --program ../build/release/bin/tou
 """
 import argparse
 import csv
+import json
 import pathlib
 import subprocess
 import tempfile
@@ -26,20 +27,26 @@ class Program:
         self.path, self.folder = pathlib.Path(path).resolve(), folder
 
     def run(self, *arguments):
-        subprocess.run([self.path, *map(str, arguments)], cwd=self.folder, check=True, stdout=subprocess.PIPE,
-                       stderr=subprocess.PIPE)
+        return subprocess.run([self.path, *map(str, arguments)], cwd=self.folder, check=True, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE).stdout
 
-    def query(self, mesh, *, points=None, trajectory=None, detector="sphere-cluster", steps=None):
-        """A row for each point of a motion, or for each step of a named trajectory."""
-        if points is not None:
-            trajectory = self.folder / "points.csv"
-            numpy.savetxt(trajectory, points, delimiter=",", header="x,y,z", comments="")
+    def motion(self, points):
+        path = self.folder / "points.csv"
+        numpy.savetxt(path, points, delimiter=",", header="x,y,z", comments="")
+        return path
+
+    def query(self, mesh, points, detector="sphere-cluster"):
+        """A row for each point of a motion."""
         answers = self.folder / "answers.csv"
-        count = ["--steps", steps] if steps else ["--steps", len(points)]
-        self.run("query", "--mesh", mesh, "--trajectory", trajectory, "--detector", detector, "--reach", "inf", *count,
-                 "--csv", answers)
+        self.run("query", "--mesh", mesh, "--trajectory", self.motion(points), "--detector", detector, "--reach", "inf",
+                 "--steps", len(points), "--csv", answers)
         with open(answers, encoding="utf-8", newline="") as file:
             return list(csv.DictReader(file))
+
+    def visits(self, mesh, points, detector):
+        """What a query looked at in each point of a motion: docs/reference/visited-json.md."""
+        return json.loads(self.run("query", "--mesh", mesh, "--trajectory", self.motion(points), "--detector", detector,
+                                   "--steps", len(points), "--visits", ",".join(map(str, range(len(points))))))
 
     def mesh(self, mesh, method="mid-point", levels=0):
         """Triangles (n, 3, 3) of a mesh after `levels` subdivisions."""
@@ -76,21 +83,6 @@ def section(triangles, axis, at):
     return segments
 
 
-def hull_section(points, edges, axis, at):
-    """The convex polygon in which the plane cuts a convex body given by its points and edges."""
-    rest = [k for k in range(3) if k != axis]
-    cut = []
-    for i, j in edges:
-        a, b = points[i][axis] - at, points[j][axis] - at
-        if a * b < 0:
-            cut.append((points[i] + (points[j] - points[i]) * a / (a - b))[rest])
-    if len(cut) < 3:
-        return None
-    cut = numpy.array(cut)
-    around = cut - cut.mean(axis=0)
-    return cut[numpy.argsort(numpy.arctan2(around[:, 1], around[:, 0]))]
-
-
 def draw_lines(axes, segments, **look):
     from matplotlib import collections
     axes.add_collection(collections.LineCollection(segments, **{"colors": INK, "linewidths": 1, **look}))
@@ -111,59 +103,58 @@ def plane_points(low, high, pixels, axis, at):
     return numpy.insert(numpy.stack([x.ravel(), y.ravel()], axis=1), axis, at, axis=1)
 
 
-PRISM_EDGES = [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)]
-GROWTH, FIRST_HEIGHT = 0.3, 1.0  # core/grid_group/direct/group_finder.cpp
-
-
-def unit_normal(triangle):
-    normal = numpy.cross(triangle[1] - triangle[0], triangle[2] - triangle[0])
-    return normal / numpy.linalg.norm(normal)
-
-
-def prism(triangle):
-    """The six corners of the highest prism that is tried for the group of a triangle."""
-    a, b, c = triangle
-    twice_area = numpy.linalg.norm(numpy.cross(b - a, c - a))
-    lengths = numpy.array([numpy.linalg.norm(c - b), numpy.linalg.norm(a - c), numpy.linalg.norm(b - a)])
-    incenter = lengths @ triangle / lengths.sum()
-    grown = incenter + (1 + GROWTH) * (triangle - incenter)
-    up = FIRST_HEIGHT * numpy.sqrt(twice_area) * unit_normal(triangle)
-    return numpy.concatenate([grown - up, grown + up])
-
-
 def draw_grid_group(plt, program, mesh):
     program.run("paper", "park-jang-2018", "--mesh", mesh, "--quick", "--out", "groups")
     read = lambda name: numpy.loadtxt(program.folder / "groups/pictures" / name, delimiter=",", skiprows=1, ndmin=2)
     boxes, hip, triangles = read("cube-groups.csv"), read("hip.csv")[0], read("original-mesh.csv").reshape(-1, 3, 3)
-    outline = section(triangles, 2, hip[2])
-    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 5.2))
-    for box in boxes[(boxes[:, 2] <= hip[2]) & (boxes[:, 5] >= hip[2])]:
-        left.add_patch(plt.Rectangle(box[:2], *(box[3:5] - box[:2]), facecolor="#c04a0020", edgecolor="#c04a00", linewidth=0.8))
-    draw_lines(left, outline)
-    left.plot(*hip[:2], "o", color="#0060a8")
-    ends = numpy.array(outline).reshape(-1, 2)
-    room = 0.05
-    plain_axes(left, f"As published: the cuboids that this plane cuts, of {len(boxes)} groups.\nEvery query tests the HIP (dot) against all.",
-               ends.min(axis=0) - room, ends.max(axis=0) + room)
+    outline = numpy.array(section(triangles, 2, hip[2]))
+    from matplotlib import collections
+    figure, panels = plt.subplots(1, 3, figsize=(10.3, 4.3))
 
-    side, pixels = 0.09, 260
-    closer = (numpy.ptp(ends[:, 0]) + 2 * room) / side
-    middle = ends[numpy.argmin(numpy.linalg.norm(ends - hip[:2], axis=1))]
-    low, high = middle - side / 2, middle + side / 2
-    answers = program.query(mesh, points=plane_points(low, high, pixels, 2, hip[2]), detector="grid-group")
-    nearest = numpy.array([int(answer["triangle"]) for answer in answers]).reshape(pixels, pixels)
-    names, numbers = numpy.unique(nearest, return_inverse=True)
-    tones = plt.get_cmap("Pastel1")(numpy.random.default_rng(3).permutation(len(names)) % 9)
-    right.imshow(tones[numbers.reshape(nearest.shape)], origin="lower", extent=(low[0], high[0], low[1], high[1]))
-    draw_lines(right, outline, linewidths=1.5)
-    cut = [(segment, t) for t in triangles[names] for segment in section(t[None], 2, hip[2])]
-    shown = [t for segment, t in cut if numpy.all(numpy.abs(numpy.mean(segment, axis=0) - middle) < 0.3 * side)]
-    chosen = min(shown, key=lambda t: abs(unit_normal(t)[2]))  # the plane cuts its prism straight
-    outlined = hull_section(prism(chosen), PRISM_EDGES, 2, hip[2])
-    right.add_patch(plt.Polygon(outlined, fill=False, edgecolor="#0060a8", linewidth=2))
-    draw_lines(right, section(chosen[None], 2, hip[2]), colors="#0060a8", linewidths=4)
-    plain_axes(right, f"Ours, {closer:.0f} times closer: a colour for each nearest triangle,\nand the prism over and under one of them. "
-               "Its group is\nevery triangle that can be nearest somewhere in it.", low, high)
+    def rectangles(axes, drawn, colour, **look):
+        for box in drawn:
+            if box[2] <= hip[2] <= box[5]:
+                axes.add_patch(plt.Rectangle(box[:2], box[3] - box[0], box[4] - box[1],
+                                             **{"facecolor": "none", "edgecolor": colour, "linewidth": 0.8, **look}))
+
+    rectangles(panels[0], boxes, "#c04a00", facecolor="#c04a0020")
+    draw_lines(panels[0], outline)
+    panels[0].plot(*hip[:2], "o", color="#0060a8")
+    ends, room = outline.reshape(-1, 2), 0.05
+    plain_axes(panels[0], f"As published: the cuboids that this plane\ncuts, of {len(boxes)} groups. Every query tests\n"
+               "the HIP (dot) against all.", ends.min(axis=0) - room, ends.max(axis=0) + room)
+
+    # Each step is far from the last, so that a query finds its cell.
+    hips = numpy.random.default_rng(3).permutation(numpy.insert(outline.mean(axis=1), 2, hip[2], axis=1))
+    found = {0: [], 1: []}
+    for step in program.visits(mesh, hips, "grid-group"):
+        if "cells" not in step or "groups" not in step:
+            continue
+        *box, covers, members = step["groups"][0]
+        group = numpy.all((triangles >= box[:3]) & (triangles <= box[3:]), axis=(1, 2))
+        if group.sum() == members:  # no other triangle lies in the group's box
+            found[covers].append((step, triangles[group]))
+    titles = {1: "Ours: the group of the HIP's cell answers.\n{} of its {} triangles are measured (dark).",
+              0: "Ours: the cell's group does not cover the HIP.\n{2} boxes are asked, {3} entered (solid);\n{0} triangles are measured (dark)."}
+    for axes, covers in zip(panels[1:], titles):
+        step, group = max(found[covers], key=lambda one: len(one[0]["triangles"]))
+        cell, at, measured = step["cells"][0], hips[step["step"]][:2], triangles[step["triangles"]]
+        edge, side = cell[3] - cell[0], 3.6 * (cell[3] - cell[0])
+        low, high = at - side / 2, at + side / 2
+        for number in range(-4, 5):
+            axes.axvline(cell[0] + number * edge, color=PALE, linewidth=0.8, zorder=0)
+            axes.axhline(cell[1] + number * edge, color=PALE, linewidth=0.8, zorder=0)
+        rectangles(axes, [cell], "#c04a00", facecolor="#c04a0020", linewidth=1.5)
+        for drawn, face in ((group, "#0060a830"), (measured, "#0060a8")):
+            axes.add_collection(collections.PolyCollection(drawn[:, :, :2], facecolors=face, edgecolors="#0060a8",
+                                                           linewidths=0.6))
+        asked = step.get("boxes", [])
+        entered = [box for box in asked if box[6]]
+        rectangles(axes, [box for box in asked if not box[6]], "#008060", linestyle=":", linewidth=1)
+        rectangles(axes, entered, "#008060", linewidth=1.5)
+        draw_lines(axes, outline, linewidths=1.5)
+        axes.plot(*at, "o", color="#c04a00", markersize=5)
+        plain_axes(axes, titles[covers].format(len(measured), len(group), len(asked), len(entered)), low, high)
     return figure
 
 
@@ -190,7 +181,7 @@ def draw_sphere_cluster(plt, program, coarse):
     start, end = numpy.array([ends[:, 0].min() - 0.9, ends[:, 1].max() * 0.75]), ends[numpy.argmax(ends[:, 1])]
     steps = numpy.linspace(0, 1, 400)[:, None]
     path = (1 - steps) * start + steps * end + numpy.stack([numpy.zeros(400), 0.25 * numpy.sin(3 * numpy.pi * steps[:, 0])], axis=1)
-    answers = program.query(coarse, points=numpy.insert(path, 2, at, axis=1)[:, turned])
+    answers = program.query(coarse, numpy.insert(path, 2, at, axis=1)[:, turned])
     distance = numpy.array([float(answer["distance"]) for answer in answers])
     touching = numpy.array([answer["touching"] == "1" for answer in answers])
     known, searches = 0, []
@@ -252,7 +243,7 @@ def draw_sign(plt, program):
     pixels, low, high = 220, numpy.array([-1.5, -1.5]), numpy.array([1.5, 1.5])
     for axes, mesh, triangles, title in ((panels[0], "icosphere:4", ball, "A closed mesh: decided everywhere"),
                                          (panels[1], "holed.off", holed, "The same with a hole: undecided (orange) where\nthe hole is nearest, or the winding number is unclear")):
-        answers = program.query(mesh, points=plane_points(low, high, pixels, 2, 0.01), detector="sphere-cluster:side=on")
+        answers = program.query(mesh, plane_points(low, high, pixels, 2, 0.01), detector="sphere-cluster:side=on")
         image = numpy.array([colours[answer["side"]] for answer in answers]).reshape(pixels, pixels, 3)
         axes.imshow(image, origin="lower", extent=(low[0], high[0], low[1], high[1]), interpolation="nearest")
         draw_lines(axes, section(triangles, 2, 0.01), linewidths=1.5)
