@@ -39,7 +39,7 @@ bool refill(const WideBvh& bvh, const Vec3& center, const Vec3& move, float dist
 }
 
 void refill_ahead(const WideBvh& bvh, PointMemory& memory, Work& work) noexcept {
-  if (!is_slow(bvh, memory.move) || memory.cache.backoff.left > 0) return;
+  if (!stays_among_listed_leaves(bvh, memory.move) || memory.cache.backoff.left > 0) return;
   const FilterPoint point = bvh.frame().point(memory.center);
   const float distance = static_cast<float>(bvh.frame().scale() * memory.upper) + 2 * point.plane_error;
   // A tick's move counts twice: so much farther may the nearest be, and so much farther is the cache's

@@ -17,7 +17,7 @@ namespace touchmark::queries {
 inline constexpr double max_move_in_leaf_radii = 4;
 
 /// True if a point that moves so far a tick stays among the leaves that are listed for it.
-inline bool is_slow(const WideBvh& bvh, const Vec3& move) noexcept {
+inline bool stays_among_listed_leaves(const WideBvh& bvh, const Vec3& move) noexcept {
   return move.norm() <= max_move_in_leaf_radii * bvh.mean_leaf_radius();
 }
 /// Returns at least the distance between two points of the mesh's frame, in the tree's.

@@ -139,7 +139,8 @@ bool sweep_listed(const WideBvh& bvh, const Sweep& sweep, double reach, std::uin
                   FirstTouch& first, PointMemory& memory, LimitedWork& work) noexcept {
   Neighborhood& near = memory.neighborhood;
   auto& list = near.list;
-  if (!(near.contacts_reach >= 0) || !is_slow(bvh, sweep.from - near.measured_at)) return false;
+  if (!(near.contacts_reach >= 0) || !stays_among_listed_leaves(bvh, sweep.from - near.measured_at))
+    return false;
   const Vec3 way = sweep.to - sweep.from;
   const double squared_way = way.squaredNorm();
   near.max_path = std::max(std::sqrt(squared_way), 0.9 * near.max_path);
@@ -193,7 +194,7 @@ bool contacts_listed(const WideBvh& bvh, const Vec3& center, double reach, doubl
                      ContactsWithin& found, PointMemory& memory, LimitedWork& work) noexcept {
   Neighborhood& near = memory.neighborhood;
   auto& list = near.list;
-  const bool pays = near.contacts_reach >= 0 && is_slow(bvh, center - near.measured_at);
+  const bool pays = near.contacts_reach >= 0 && stays_among_listed_leaves(bvh, center - near.measured_at);
   // Reaches change from question to question: the next list is to serve about the largest of the last few.
   near.contacts_reach = std::max(reach, 0.9 * near.contacts_reach);
   near.measured_at = center;

@@ -31,7 +31,7 @@ void prepare(const Surface& surface, const LastQuestion& question, PointMemory& 
              LimitedWork& work) noexcept {
   const WideBvh& bvh = surface.bvh;
   if (memory.epoch != bvh.epoch() || is_clear(bvh, memory.center, question.reach, memory)) return;
-  const Vec3 move = is_slow(bvh, memory.move) ? memory.move : Vec3(Vec3::Zero());
+  const Vec3 move = stays_among_listed_leaves(bvh, memory.move) ? memory.move : Vec3(Vec3::Zero());
   const bool looks_at_leaves =
       question.query == LastQuestion::Query::nearest || question.query == LastQuestion::Query::sweep;
   if (looks_at_leaves && memory.is_near()) refill_ahead(bvh, memory, work);
