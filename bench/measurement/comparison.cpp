@@ -13,7 +13,7 @@
 #include "bench/support/system/available_memory.h"
 #include "bench/support/system/interrupt.h"
 #include "bench/workers/shared_workload.h"
-#include "bench/workers/timing/cold_replay.h"
+#include "bench/workers/timing/eviction.h"
 
 namespace touchmark::bench::measurement {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/measurement/measurement.h"
-#include "bench/workers/timing/cold_replay.h"
+#include "bench/workers/timing/eviction.h"
 #include "bench/workload/sample_steps.h"
 
 namespace touchmark::bench::measurement {

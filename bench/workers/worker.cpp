@@ -96,7 +96,7 @@ class Worker {
       if (layout_.bodies > 0) return std::nullopt;
       return read_mesh(input_.bytes(), layout_);
     };
-    return run_servo(*contestant_, proxy_, mesh, trace_of(request.task), request, *buffers_);
+    return run_servo(*contestant_, proxy_, mesh, trace_of(request.task), request, *buffers_, output_.bytes());
   }
   ColdSamples handle(const request::Cold& request) {
     return run_cold(*contestant_, trace_of(request.task), ranges_of(request.task), request, *buffers_,

@@ -8,7 +8,7 @@
 namespace touchmark {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Coupling, radius, stiffness, static_friction, dynamic_friction, damping,
-                                   tick_s, shading)
+                                   tick_s, shading, max_work)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Work, cells, spheres, boxes, triangles, exact_decisions)
 
 // JSON has no infinity, so doubles that may be infinite travel as their bits.
@@ -39,7 +39,7 @@ namespace workers {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorkloadLayout, vertices, triangles, ids, trace_steps, shapes, bodies,
                                    trace_moves, min_output_steps)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Pace, rate_hz, work_us, first_tick, overrun_ticks)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Pace, rate_hz, slowdown, work_us, first_tick, overrun_ticks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Task, trace, query, steps, ranges)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NotStarted, error)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OutOfResources, what)
@@ -74,7 +74,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Time, task, passes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Sample, task, passes, replays)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Latency, task)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Proxy, wanted, coupling, start)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Servo, task, pace, warm_up, ticks, idle, proxy)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Servo, task, pace, warm_up, ticks, idle, evicted_bytes, proxy)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cold, task, evicted_bytes, floor_samples, first_sample, min_samples,
                                    max_samples, budget_ns)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Lines, task, samples)

@@ -221,14 +221,15 @@ struct Servo {
   using Reply = ServoStretch;
   Task task;
   Pace pace;
-  std::size_t warm_up = 0;  ///< ticks before, which are not among them
-  std::size_t ticks = 1;    ///< with the warm-up at most as many as the output has room for
-  bool idle = false;        ///< nothing is asked
-  Proxy proxy = {};         ///< what is stepped in place of the query
+  std::size_t warm_up = 0;        ///< ticks before, which are not among them
+  std::size_t ticks = 1;          ///< with the warm-up at most as many as the output has room for
+  bool idle = false;              ///< nothing is asked
+  std::size_t evicted_bytes = 0;  ///< walked over before each tick; 0: nothing is
+  Proxy proxy = {};               ///< what is stepped in place of the query
 
   /// What it takes by the clock before the contestant takes any time.
   std::chrono::milliseconds paced_time() const {
-    const double ticks_ms = 1e3 * static_cast<double>(warm_up + ticks + 2) / pace.rate_hz;
+    const double ticks_ms = 1e3 * static_cast<double>(warm_up + ticks + 2) * pace.slowdown / pace.rate_hz;
     return std::chrono::milliseconds(std::llround(ticks_ms));
   }
 };

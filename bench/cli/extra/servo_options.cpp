@@ -19,6 +19,7 @@
 #include "bench/results/system_info.h"
 #include "bench/support/checked.h"
 #include "bench/support/numbers.h"
+#include "core/detector.h"
 
 namespace touchmark::bench::cli {
 
@@ -58,7 +59,9 @@ void add_proxy_options(CLI::App& command, ServoOptions& options) {
             "with --proxy: certified, the only one that servo steps")
       ->needs(stepped);
   add_coupling(command, options.coupling);
-  for (const char* name : {"--stiffness", "--friction", "--damping", "--shading"})
+  add_value(command, "--max-work", options.max_work, "N",
+            "what a step of a proxy looks at, at most, 64 for each exact decision; 0: no bound");
+  for (const char* name : {"--stiffness", "--friction", "--damping", "--shading", "--max-work"})
     command.get_option(name)->needs(stepped);
   command.get_option("--shading")->excludes(command.get_option("--scene"));
 }
@@ -81,13 +84,17 @@ servo::ServoSettings checked_settings(const ServoOptions& options, int core) {
   settings.rate_hz =
       support::checked_number("--rate", options.selectors.motion.rate, support::Zero::refused, max_rate_hz);
   const double seconds = support::checked_number("--seconds", options.seconds, support::Zero::refused, max_s);
-  settings.ticks = static_cast<std::uint64_t>(std::max(std::round(seconds * settings.rate_hz), 1.0));
+  settings.evicts = options.evict;
+  settings.ticks =
+      static_cast<std::uint64_t>(std::max(std::round(seconds * settings.rate_hz / settings.slowdown()), 1.0));
   settings.work_us = support::checked_number("--work", options.work_us, support::Zero::allowed, 1e6);
   settings.load = checked_load(options.load, core);
   if (options.proxy) {
     check_method(options.method);
     settings.proxy = checked_coupling(options.coupling);
     settings.proxy->tick_s = 1 / settings.rate_hz;
+    settings.proxy->max_work =
+        support::checked_count("--max-work", options.max_work, 0, LimitedWork::unlimited);
   }
   return settings;
 }
@@ -119,6 +126,8 @@ void add_servo_options(CLI::App& command, ProgramContext& context, ServoOptions&
   add_value(command, "--load", options.load, "LOAD",
             "what the other cores do meanwhile: none, memory or cpu; default: memory, or none where there is "
             "no other core");
+  command.add_flag("--evict", options.evict,
+                   "empty all caches before each tick, out of its time; a tick comes every 20 periods then");
   add_value(command, "--work", options.work_us, "US", "other work a tick on the same core, after the answer");
   add_proxy_options(command, options);
   add_value(command, "--cpu", options.cpu, "N", "the core of the loop; default: the last");

@@ -16,8 +16,8 @@ struct ProgramContext;
 struct ServoOptions {
   contestants::Selectors selectors;
   std::string seconds = "10", load, work_us = "0", cpu, out;
-  bool proxy = false;
-  std::string method;
+  bool proxy = false, evict = false;
+  std::string method, max_work = std::to_string(experiments::servo::usual_max_work);
   CouplingSelectors coupling;
   WorkerSelectors workers;
 };

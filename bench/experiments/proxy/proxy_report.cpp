@@ -109,7 +109,8 @@ nlohmann::ordered_json coupling_json(const Coupling& coupling) {
           {"static_friction", coupling.static_friction},
           {"dynamic_friction", coupling.dynamic_friction},
           {"damping_ns_per_m", coupling.damping},
-          {"shading", coupling.shading}};
+          {"shading", coupling.shading},
+          {"max_work", coupling.max_work}};
 }
 
 std::string proxy_json(const results::RunDescription& description, const ProxyRun& run) {

@@ -22,7 +22,9 @@ ProxyReplay::ProxyReplay(const workload::Workload& workload, std::shared_ptr<pro
       oracle_(std::move(oracle)),
       coupling_(coupling),
       proxy_(std::move(contestant), workload.scene ? std::nullopt : std::optional(workload.mesh), coupling),
-      course_{"", workload.mesh, coupling.radius, 0, start, {}} {}
+      course_{"", workload.mesh, coupling.radius, 0, start, {}} {
+  if (coupling.max_work > 0 && proxy_.limit_work(coupling.max_work)) max_work_ = coupling.max_work;
+}
 
 void ProxyReplay::place() {
   proxy_.place(course_.start);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "bench/contestants/contestant.h"
@@ -33,6 +34,8 @@ class ProxyReplay {
 
   const proxies::Tally& tally() const noexcept { return tally_; }
   double work_mean() const noexcept;  ///< a tick's
+  /// Returns what bounds a step; nothing where the contestant keeps to no bound.
+  std::optional<std::uint64_t> max_work() const noexcept { return max_work_; }
   std::uint64_t work_max() const noexcept { return work_max_; }
 
  private:
@@ -46,6 +49,7 @@ class ProxyReplay {
   std::unique_ptr<proxies::Judge> judge_;
   proxies::Step step_;
   std::uint64_t work_max_ = 0;
+  std::optional<std::uint64_t> max_work_;
 };
 
 }  // namespace touchmark::bench::experiments::servo

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array percentiles{"p50", "p99", "p999", "p9999", "max"};
 /// Columns that files of the first releases do not have: those of proxies.
-constexpr std::size_t newer_columns = 6;
+constexpr std::size_t newer_columns = 9;
 constexpr std::array timed{"latency_ns", "query_ns", "idle_latency_ns"};
 
 void check_counts(const validation::RowCheck& row) {
@@ -75,7 +75,8 @@ void check_proxy(const validation::RowCheck& row) {
   const bool is_proxy = row.field("proxy") == own_proxy;
   row.expect(is_proxy == (row.field("query") == proxy_step), "proxy", "does not go with query");
   const std::uint64_t judged = row.count("judged_ticks");
-  for (const char* column : {"judged_ticks", "crossings", "violations", "contact_ticks", "stuck_ticks"}) {
+  for (const char* column :
+       {"judged_ticks", "crossings", "violations", "contact_ticks", "stuck_ticks", "unfinished_ticks"}) {
     row.expect(row.field(column).empty() || is_proxy, column, "is of a proxy, and this row has none");
     row.expect(row.count(column) <= judged, column, fmt::format("is above judged_ticks {}", judged));
   }

@@ -127,6 +127,9 @@ constexpr auto columns = std::to_array<results::Column<ServoLine>>({
     {"violations", text<row, &R::proxy, &ProxyCounts::violations>, optional, kinds::whole_number},
     {"contact_ticks", text<row, &R::proxy, &ProxyCounts::contact_ticks>, optional, kinds::whole_number},
     {"stuck_ticks", text<row, &R::proxy, &ProxyCounts::stuck_ticks>, optional, kinds::whole_number},
+    {"max_work", text<row, &R::proxy, &ProxyCounts::max_work>, optional, kinds::whole_number},
+    {"unfinished_ticks", text<row, &R::proxy, &ProxyCounts::unfinished_ticks>, optional, kinds::whole_number},
+    {"evicted", text<settings, &ServoSettings::evicts>, always, kinds::bit},
 });
 
 /// What ties rows of the three files.

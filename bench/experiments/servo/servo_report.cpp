@@ -63,6 +63,8 @@ std::string why(const ServoRow& row) {
   text += fmt::format("; none of {} steps crossed the surface or came nearer than the radius, {} in contact",
                       proxy.ticks, proxy.contact_ticks);
   if (proxy.stuck_ticks > 0) text += fmt::format(", {} stuck too near to it", proxy.stuck_ticks);
+  if (proxy.max_work)
+    text += fmt::format("; {} ended by --max-work {}", proxy.unfinished_ticks, *proxy.max_work);
   return text;
 }
 
@@ -88,11 +90,13 @@ std::string circumstances(const ServoSettings& settings, const workload::Workloa
                           const std::vector<ServoRow>& rows, const RealTimeHost& host) {
   std::string text = fmt::format(
       "{}, {} ({}), {}, radius {}\n{} ticks at {:g} Hz on core {}, as many of the same loop idle in turns; "
-      "load {}, {:g} us of "
-      "other work a tick\n",
+      "load {}, {:g} us of other work a tick{}\n",
       workload.mesh_name, workload.trajectories.front(), workload::trace_text(workload, 0),
       question_of(settings, rows.front().query), workload::length_text(workload, workload.radius),
-      settings.ticks, settings.rate_hz, core, servo::name_of(settings.load), settings.work_us);
+      settings.ticks, settings.rate_hz, core, servo::name_of(settings.load), settings.work_us,
+      settings.evicts ? fmt::format("; a tick every {:g} ms, all caches emptied before it",
+                                    1e3 * settings.slowdown() / settings.rate_hz)
+                      : "");
   for (const ServoRow& row : rows) {
     if (row.scheduler.empty()) continue;
     text += fmt::format("{}; memory: {}\n", row.scheduler, row.memory);

@@ -19,13 +19,20 @@ namespace touchmark::bench::experiments::servo {
 /// The status of a row whose loop, or idle loop, was ended.
 inline constexpr const char* overrun = "overrun";
 
+/// Of a proxy's step: what holds 50 us a tick on machines of today, and ends few ticks of a hand.
+inline constexpr std::uint64_t usual_max_work = 1000;
+
 struct ServoSettings {
   double rate_hz = 1000;
   std::uint64_t ticks = 10'000;  ///< each contestant's; its idle loop has as many more
   double work_us = 0;            ///< other work a tick on the same core
   Load load = Load::none;
+  bool evicts = false;  ///< All caches are emptied before each tick, and ticks come slower, by `slowdown`.
   std::uint64_t seed = 1;
   std::optional<Coupling> proxy = {};  ///< steps our proxy in place of the query
+
+  /// Emptying the caches takes longer than a period of a millisecond.
+  unsigned slowdown() const noexcept { return evicts ? 20 : 1; }
 };
 
 /// What the oracle found in the ways of a proxy. All ticks that stepped it are judged, warm-ups among them.
@@ -33,6 +40,8 @@ struct ProxyCounts {
   std::uint64_t ticks = 0;
   std::uint64_t crossings = 0, violations = 0;  ///< ticks that met a triangle, or came nearer than the radius
   std::uint64_t contact_ticks = 0, stuck_ticks = 0;
+  std::optional<std::uint64_t> max_work;  ///< what a step was bounded by, if by anything
+  std::uint64_t unfinished_ticks = 0;     ///< those that it ended
 };
 
 /// A loop's ticks and what the kernel counted meanwhile.

@@ -7,6 +7,7 @@
 #include "bench/ground_truth/workload_truths.h"
 #include "bench/measurement/result_row.h"
 #include "bench/support/random.h"
+#include "bench/workers/timing/eviction.h"
 
 namespace touchmark::bench::experiments::servo {
 namespace {
@@ -28,6 +29,17 @@ std::uint64_t ticks_a_stretch(const ServoSettings& settings) {
   return std::min(std::max<std::uint64_t>(tenth, min_stretch), settings.ticks);
 }
 
+namespace {
+
+/// Returns how many ticks' room a stretch takes, and the memory that is walked over to empty the caches.
+std::size_t room_for(const ServoSettings& settings) {
+  const std::size_t ticks = ticks_a_stretch(settings) + min_stretch;
+  if (!settings.evicts) return ticks;
+  return std::max(ticks, 1 + workers::eviction_sizes().all / workers::OutputBuffers::bytes_for(1));
+}
+
+}  // namespace
+
 ServoRun::ServoRun(const contestants::Roster& roster, const workload::Workload& workload,
                    workload::Query query, const std::vector<contestants::ContestantSpec>& contestants,
                    const ServoSettings& settings, const workers::WorkerOptions& workers)
@@ -35,7 +47,7 @@ ServoRun::ServoRun(const contestants::Roster& roster, const workload::Workload& 
       roster_(roster),
       query_(query),
       settings_(settings),
-      arena_(workload, workers, ticks_a_stretch(settings) + min_stretch),
+      arena_(workload, workers, room_for(settings)),
       checksums_(contestants.size()),
       next_tick_(contestants.size()),
       replays_(contestants.size()) {
@@ -126,7 +138,8 @@ void ServoRun::run_stretch(std::size_t contestant, bool idle, std::uint64_t tick
   ServoRow& row = rows_[contestant];
   workers::request::Servo request;
   request.task = task();
-  request.pace = {settings_.rate_hz, settings_.work_us, next_tick_[contestant]};
+  request.pace = {settings_.rate_hz, settings_.slowdown(), settings_.work_us, next_tick_[contestant]};
+  if (settings_.evicts) request.evicted_bytes = workers::eviction_sizes().all;
   request.warm_up = std::min(min_stretch, static_cast<std::size_t>(std::ceil(warm_up_s * settings_.rate_hz)));
   request.ticks = ticks;
   request.idle = idle;
@@ -168,7 +181,8 @@ void ServoRun::judge_proxy(std::size_t contestant, const workers::ServoStretch& 
   const auto records = arena_.buffers().tick_records(warm_up + stretch.recorded);
   const bool same = replay.follow(records.first(stretch.warmed)) && replay.follow(records.subspan(warm_up));
   const proxies::Tally& tally = replay.tally();
-  row.proxy = {tally.ticks, tally.crossings, tally.violations, tally.contact_ticks, tally.stuck_ticks};
+  row.proxy = {tally.ticks,       tally.crossings,   tally.violations, tally.contact_ticks,
+               tally.stuck_ticks, replay.max_work(), tally.unfinished};
   row.work_mean = replay.work_mean();
   row.work_max = replay.work_max();
   if (!same) row.status = "checksum mismatch";

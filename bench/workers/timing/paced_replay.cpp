@@ -34,13 +34,14 @@ std::size_t step_of_tick(std::uint64_t tick, std::size_t steps) noexcept {
 }
 
 PacedReplay::PacedReplay(const Pace& pace, std::size_t steps, WakeClock& clock, std::span<TickRecord> records,
-                         const Accuracy& accuracy) noexcept
+                         const Accuracy& accuracy, EvictionBuffer* eviction) noexcept
     : pace_(pace),
       steps_(steps),
       clock_(clock),
       records_(records),
       accuracy_(accuracy),
-      period_ns_(1e9 / pace.rate_hz),
+      eviction_(eviction),
+      period_ns_(pace.slowdown * 1e9 / pace.rate_hz),
       start_ns_(clock.now_ns()) {
   assert(steps > 0);
 }
@@ -67,6 +68,7 @@ void PacedReplay::record_lost(std::int64_t now) noexcept {
 
 std::optional<std::size_t> PacedReplay::next() noexcept {
   if (tick_ > 0 && pace_.work_us > 0) do_other_work();
+  if (eviction_ != nullptr) walked_ += eviction_->walk();
   const std::int64_t now = clock_.now_ns();
   while (tick_ < records_.size() && now >= scheduled(tick_ + 1)) ++tick_;
   without_sleep_ = now < scheduled(tick_) ? 0 : without_sleep_ + 1;

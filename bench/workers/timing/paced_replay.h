@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "bench/contestants/contestant.h"
+#include "bench/workers/timing/eviction.h"
 #include "bench/workload/answer.h"
 #include "core/detector.h"
 
@@ -47,6 +48,7 @@ static_assert(sizeof(TickRecord) <= sizeof(workload::Answer) && std::is_triviall
 
 struct Pace {
   double rate_hz = 1000;
+  unsigned slowdown = 1;           ///< A tick comes every so many periods of the rate.
   double work_us = 0;              ///< other work on the same core, after each answer
   std::uint64_t first_tick = 0;    ///< how many ticks of the trajectory were before
   std::size_t overrun_ticks = 50;  ///< a loop that finds no time to sleep before so many in a row is ended
@@ -68,9 +70,10 @@ std::size_t step_of_tick(std::uint64_t tick, std::size_t steps) noexcept;
 /// with the old force. The trajectory goes by time, so its step is left out.
 class PacedReplay final : public contestants::StepPacer {
  public:
-  /// As many ticks as `records` has room for. The first begins a period from now. At least one step.
+  /// As many ticks as `records` has room for. The first begins a period from now. At least one step. The
+  /// caches are emptied before each tick where there is an `eviction`, which must outlive the replay.
   PacedReplay(const Pace& pace, std::size_t steps, WakeClock& clock, std::span<TickRecord> records,
-              const Accuracy& accuracy = certified) noexcept;
+              const Accuracy& accuracy = certified, EvictionBuffer* eviction = nullptr) noexcept;
 
   std::optional<std::size_t> next() noexcept override;
   void took(std::uint64_t ticks, const workload::Answer& answer, const Work& work) noexcept override {
@@ -99,12 +102,14 @@ class PacedReplay final : public contestants::StepPacer {
   WakeClock& clock_;
   std::span<TickRecord> records_;
   Accuracy accuracy_;  // the answers'
+  EvictionBuffer* eviction_;
   double period_ns_;
   std::int64_t start_ns_;
   std::size_t tick_ = 0;           // the next one, or the one that is being asked
   std::size_t recorded_ = 0;       // ticks before tick_ that are not among these are lost
   std::size_t without_sleep_ = 0;  // ticks asked since it slept
   bool overrun_ = false;
+  std::uint64_t walked_ = 0;
 };
 
 /// Runs the loop with nothing asked: what the machine alone makes of it.

@@ -48,16 +48,18 @@ void step_paced(contestants::GuidedProxy& proxy, const workload::QueryTrace& tra
 ServoStretch run_servo(contestants::Contestant& contestant, std::optional<contestants::GuidedProxy>& proxy,
                        const std::function<std::optional<TriangleMesh>()>& mesh,
                        const workload::QueryTrace& trace, const request::Servo& request,
-                       const OutputBuffers& buffers) {
+                       const OutputBuffers& buffers, std::span<const std::byte> memory) {
   ServoStretch stretch;
   if (request.proxy.wanted && !request.idle && !proxy) {
     proxy.emplace(contestant.share(), mesh(), request.proxy.coupling);
     proxy->place(Vec3(request.proxy.start.data()));
     stretch.placed = true;
   }
-  static const std::string memory = lock_memory();
+  static const std::string locked = lock_memory();
   const std::span<TickRecord> records = buffers.tick_records(request.warm_up + request.ticks);
   std::fill(records.begin(), records.end(), TickRecord{});  // no page fault inside the loop
+  EvictionBuffer buffer(memory.first(request.evicted_bytes));
+  EvictionBuffer* const eviction = request.evicted_bytes > 0 ? &buffer : nullptr;
   MonotonicClock clock;
   const Accuracy accuracy = contestant.accuracy();
   const auto run = [&](PacedReplay& replay) {
@@ -65,16 +67,16 @@ ServoStretch run_servo(contestants::Contestant& contestant, std::optional<contes
     if (request.proxy.wanted) return step_paced(*proxy, trace, replay);
     contestant.replay_paced(trace, replay);
   };
-  stretch.memory = memory;
+  stretch.memory = locked;
   const RealTimeScope scope(watchdog_s);
   stretch.scheduler = scope.scheduler();
   Pace pace = request.pace;
-  PacedReplay warm_up(pace, trace.steps.size(), clock, records.first(request.warm_up), accuracy);
+  PacedReplay warm_up(pace, trace.steps.size(), clock, records.first(request.warm_up), accuracy, eviction);
   run(warm_up);
   stretch.warmed = warm_up.recorded();
   pace.first_tick += request.warm_up;
   const rusage before = used_by_this_thread();
-  PacedReplay replay(pace, trace.steps.size(), clock, records.subspan(request.warm_up), accuracy);
+  PacedReplay replay(pace, trace.steps.size(), clock, records.subspan(request.warm_up), accuracy, eviction);
   run(replay);
   const rusage after = used_by_this_thread();
   stretch.recorded = replay.recorded();

@@ -177,6 +177,28 @@ TEST_F(Servo, StepsAProxyAndJudgesEveryStep) {
   expect_valid();
 }
 
+TEST_F(Servo, ABoundOfWorkEndsStepsAndNeverTheProof) {
+  servo({"--proxy", "--trajectory", "slide", "--max-work", "40", "--seconds", "0.3"});
+  const auto row = read("servo.csv").at(0);
+  EXPECT_EQ(row.at("status"), "ok");
+  EXPECT_EQ(row.at("max_work"), "40");
+  EXPECT_GT(std::stoi(row.at("unfinished_ticks")), 0);
+  EXPECT_EQ(row.at("crossings") + row.at("violations"), "00");
+  EXPECT_NE(content_of(folder_.file("out/run.json")).find("\"max_work\": 40"), std::string::npos);
+  expect_valid();
+}
+
+// A tick every 20 ms: a second has 50.
+TEST_F(Servo, EmptiesTheCachesBeforeEachTick) {
+  const Outcome outcome = servo({"--evict", "--seconds", "1"});
+  EXPECT_NE(outcome.status, 2) << outcome.err;
+  const auto row = read("servo.csv").at(0);
+  EXPECT_EQ(row.at("evicted"), "1");
+  EXPECT_EQ(row.at("ticks"), "50");
+  EXPECT_NE(outcome.out.find("a tick every 20 ms"), std::string::npos) << outcome.out;
+  expect_valid();
+}
+
 TEST_F(Servo, AProxyBeginsOffTheSurfaceWhereNoGoalIsFree) {
   servo({"--proxy", "--trajectory", "slide", "--seconds", "0.2"});
   const auto row = read("servo.csv").at(0);
