@@ -25,6 +25,8 @@ double lower_distance(const Aabb& bounds, const SeenBody& seen) noexcept;
 class NearBodies {
  public:
   static constexpr std::size_t room = 16;
+  /// Bodies that are not listed share so many memories, by their shapes.
+  static constexpr std::size_t unlisted_room = 8;
   struct Entry {
     BodyId id;
     std::uint32_t slot = 0;  ///< the place of what is remembered of the body, below `room`

@@ -45,8 +45,6 @@ class Scene {
  public:
   using Options = typename D::Options;
   static constexpr bool keeps_to_limit = KeepsToLimit<D>;
-  /// Bodies that are not listed share so many memories, by their shapes.
-  static constexpr std::size_t unlisted_room = 8;
   /// What one haptic point remembers between ticks.
   struct Session {
     LimitedWork work;
@@ -59,7 +57,8 @@ class Scene {
       std::uint32_t shape = PlacedBody::no_shape;
       typename D::Session session;
     };
-    std::array<Asked, NearBodies::room + unlisted_room> asked;  ///< by slot; the last for what is not listed
+    std::array<Asked, NearBodies::room + NearBodies::unlisted_room>
+        asked;  ///< by slot; the last for what is not listed
     /// Adds what a body's session has counted, and clears that.
     void take_work(typename D::Session& own) noexcept {
       if constexpr (keeps_to_limit)

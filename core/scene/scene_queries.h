@@ -36,7 +36,7 @@ void Scene<D>::ask_unlisted(const Vec3& from, const Vec3& to, double length, con
     const PlacedBody& placed = bodies_[body];
     const SeenBody seen = bodies_.seen_from(body, from);
     if (lower_distance(bodies_.bounds_of(placed), seen) <= limit + length)
-      this->ask(NearBodies::room + placed.shape % unlisted_room, body, seen, session, ask);
+      this->ask(NearBodies::room + placed.shape % NearBodies::unlisted_room, body, seen, session, ask);
     return limit;
   };
   if (&from == &to) {

@@ -24,7 +24,8 @@ bool Scene<D>::list_surface(const Vec3& point, double reach, Session& session) c
     const Shape<D>* shape = shapes_.built(placed.shape);
     if (shape == nullptr || shape->is_round()) return list.leave_out(lower);
     const SeenBody seen(placed.pose, double{placed.rigid}, center);
-    typename D::Session& own = session_of(NearBodies::room + placed.shape % unlisted_room, body, session);
+    typename D::Session& own =
+        session_of(NearBodies::room + placed.shape % NearBodies::unlisted_room, body, session);
     if constexpr (keeps_to_limit) own.work = session.work.rest();
     if (!shape->detector->list_triangles(seen.center(), seen.reach_in_frame(*radius, 0), own, listed) ||
         !list.add(body, seen, *shape->mesh, listed))
