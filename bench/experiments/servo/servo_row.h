@@ -19,7 +19,7 @@ namespace touchmark::bench::experiments::servo {
 /// The status of a row whose loop, or idle loop, was ended.
 inline constexpr const char* overrun = "overrun";
 
-/// Of a proxy's step: what holds 50 us a tick on machines of today, and ends few ticks of a hand.
+/// A proxy's step is bounded by this where nothing else is asked: it ends few ticks of a hand.
 inline constexpr std::uint64_t usual_max_work = 1000;
 
 struct ServoSettings {
