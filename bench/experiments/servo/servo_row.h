@@ -20,7 +20,7 @@ namespace touchmark::bench::experiments::servo {
 inline constexpr const char* overrun = "overrun";
 
 /// A proxy's step is bounded by this where nothing else is asked: it ends few ticks of a hand.
-inline constexpr std::uint64_t usual_max_work = 1000;
+inline constexpr std::uint64_t usual_max_work = 4000;
 
 struct ServoSettings {
   double rate_hz = 1000;
