@@ -153,6 +153,22 @@ TEST(Proxy, NeverComesAsNearWithinALimitOfWork) {
   }
 }
 
+/// What the limit leaves open is not known to be free, neither in that tick nor in the next.
+TEST(Proxy, IsStuckWhereItsLimitLeavesThePlaceOpen) {
+  const TriangleMesh ball = octasphere(40);
+  const SphereCluster detector = SphereCluster::build(ball);
+  SphereCluster::Session session;
+  Proxy<SphereCluster> proxy(detector, {.radius = 0.05, .max_work = 1}, &ball);
+  const Vec3 start(0, 0, 1.0499), goal(0, 0, 1.5);
+  proxy.place(start);
+  EXPECT_TRUE(proxy.step(goal, session).unfinished);
+  EXPECT_EQ(proxy.state().status, ProxyStatus::stuck);
+  EXPECT_EQ(proxy.state().position, start);
+  proxy.limit_work(0);
+  EXPECT_EQ(proxy.step({0, 0, 1}, session).status, ProxyStatus::stuck);
+  EXPECT_EQ(proxy.step(goal, session).position, goal);
+}
+
 /// A goal that stays is reached over some ticks, the same place as at once.
 TEST(Proxy, GoesOnWhereItsLimitEndedATick) {
   const TriangleMesh ball = octasphere(40);

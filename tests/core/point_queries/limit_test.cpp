@@ -143,6 +143,7 @@ TYPED_TEST(LimitOf, EndsAtTheHubOfAFan) {
   Limited<TypeParam> limited(mesh);
   for (std::uint64_t limit = 1; limit < 5000; limit *= 2) {
     limited.ask({{0, 0, 0.25}, 0.25}, {0.001, 0, 0.25}, limit, "limit " + std::to_string(limit));
+    limited.ask({{0, 0, 0.25}, std::nextafter(0.25, 0)}, {0.001, 0, 0.25}, limit, "just off the hub");
     limited.ask({{0, 0, 0}, 0}, {0, 0, 0.1}, limit, "in the hub, limit " + std::to_string(limit));
   }
   EXPECT_GT(limited.undecided, 0u);
