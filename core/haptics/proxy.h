@@ -12,6 +12,7 @@
 ///   for (;;) device.send(proxy.step(device.position(), session).force);
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -66,7 +67,8 @@ class Proxy {
     if (!motion_.begin(goal)) return motion_.state();
     work_ = coupling().max_work > 0 ? limited_work(session) : nullptr;
     if (work_ != nullptr) {
-      work_->limit = work_->spent() + coupling().max_work;
+      const std::uint64_t before = work_->spent();
+      work_->limit = before + std::min(coupling().max_work, LimitedWork::unlimited - before);
       work_->undecided = false;
     }
     if (choose_kept(session)) slide(session);
@@ -96,7 +98,7 @@ class Proxy {
     else
       return nullptr;
   }
-  /// Has a question of this step remained open?
+  /// Returns true if a question of this step has remained open.
   bool is_undecided() const noexcept { return work_ != nullptr && work_->undecided; }
 
   bool touches(double distance, typename D::Session& session) const noexcept {

@@ -169,6 +169,19 @@ TEST(Proxy, IsStuckWhereItsLimitLeavesThePlaceOpen) {
   EXPECT_EQ(proxy.step(goal, session).position, goal);
 }
 
+/// The largest bound is none, however much the session has looked at before.
+TEST(Proxy, IsNotEndedByTheLargestLimit) {
+  const TriangleMesh ball = octasphere(40);
+  const SphereCluster detector = SphereCluster::build(ball);
+  SphereCluster::Session session;
+  Proxy<SphereCluster> proxy(detector, {.radius = 0.05, .max_work = LimitedWork::unlimited}, &ball);
+  proxy.place({0, 0, 1.06});
+  EXPECT_EQ(proxy.step({0, 0, 0.9}, session).status, ProxyStatus::in_contact);
+  ASSERT_GT(session.work.spent(), 0U);
+  EXPECT_FALSE(proxy.step({0.1, 0, 0.9}, session).unfinished);
+  EXPECT_EQ(proxy.step({0, 0, 1.5}, session).position, Vec3(0, 0, 1.5));
+}
+
 /// A goal that stays is reached over some ticks, the same place as at once.
 TEST(Proxy, GoesOnWhereItsLimitEndedATick) {
   const TriangleMesh ball = octasphere(40);
