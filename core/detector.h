@@ -78,7 +78,7 @@ struct LimitedWork : Work {
 
   std::uint64_t spent() const noexcept { return total() + exact_weight * exact_decisions; }
   std::uint64_t left() const noexcept { return limit == unlimited ? unlimited : left_of_limit(); }
-  /// Is this more than is left? Then the query is undecided.
+  /// Returns true, and makes the query undecided, if this is more than is left.
   bool exceeds_limit(std::uint64_t needed = 1) noexcept {
     return limit != unlimited && exceeds_given_limit(needed);
   }

@@ -71,8 +71,7 @@ const workload::Workload& with_room(const workload::Workload& workload) {
 std::size_t steps_for_cold(const Effort& effort) {
   if (effort.cold_passes == 0) return 0;
   const std::size_t samples = effort.of_cold_pass(std::max(effort.cold_samples, effort.cold_l2_samples));
-  const std::size_t walked_over = 1 + workers::eviction_sizes().all / workers::OutputBuffers::bytes_for(1);
-  return std::max(cold_floor_samples + samples, walked_over);
+  return std::max(cold_floor_samples + samples, workers::steps_to_evict_all());
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace touchmark::bench::oracle {
 bool is_within(const Vec3& point, const PlacedTriangle& triangle, double radius);
 /// Is it within the radius of a point of the segment?
 bool is_within(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle, double radius);
-/// Is it nearer than the radius to a point of the segment?
+/// Returns true if it is nearer than the radius to a point of the segment.
 bool is_nearer(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle, double radius);
 /// Is it within the radius of the point at that fraction of the path, not rounded?
 bool is_within_on_path(const Sweep& sweep, double fraction, const PlacedTriangle& triangle, double radius);

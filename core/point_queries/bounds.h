@@ -49,7 +49,7 @@ inline std::uint64_t max_refill_work(const WideBvh& bvh) noexcept {
                    bvh::width * (bvh.parts().nodes.size() + bvh.parts().blocks.size()));
 }
 
-/// Is a look at every triangle more than what is left? Then the query ends undecided.
+/// Returns true if a look at every triangle is more than what is left. The query ends undecided then.
 inline bool must_end(const WideBvh& bvh, LimitedWork& work) noexcept {
   return work.exceeds_limit(bvh.parts().triangles.size());
 }

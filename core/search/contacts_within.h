@@ -86,7 +86,7 @@ class ContactsWithin {
   /// Returns how many triangles were shown that are within the reach; the nearest are in their order then.
   /// After `max_decisions` that is the order of the computed distances.
   std::size_t finish(Work& work, std::uint64_t max_decisions = LimitedWork::unlimited) noexcept;
-  /// Once finished: were there more exact decisions to make than it was allowed?
+  /// Returns true, once finished, if it made as many exact decisions as it was allowed.
   bool ran_out() const noexcept { return exact_decisions_ >= max_decisions_; }
   struct Nearest {
     std::uint32_t slot;

@@ -26,12 +26,11 @@ using touchmark::Vec3;
 
 constexpr long proxy_period_ns = 1'000'000, device_period_ns = 250'000;
 constexpr double device_period_s = 1e-9 * device_period_ns;
-constexpr touchmark::Coupling coupling{
-    .radius = 0.005,
-    .stiffness = 1000,
-    .damping = 1,
-    .tick_s = 1e-9 * proxy_period_ns,
-    .max_work = 4000};  // far more than a hand's tick needs, and less than 0.1 ms
+constexpr touchmark::Coupling coupling{.radius = 0.005,
+                                       .stiffness = 1000,
+                                       .damping = 1,
+                                       .tick_s = 1e-9 * proxy_period_ns,
+                                       .max_work = 4000};  // bounds a step on any mesh
 
 /// A square plate in the plane z = 0, in metres.
 touchmark::TriangleMesh plate() {

@@ -35,7 +35,7 @@ namespace {
 std::size_t room_for(const ServoSettings& settings) {
   const std::size_t ticks = ticks_a_stretch(settings) + min_stretch;
   if (!settings.evicts) return ticks;
-  return std::max(ticks, 1 + workers::eviction_sizes().all / workers::OutputBuffers::bytes_for(1));
+  return std::max(ticks, workers::steps_to_evict_all());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "bench/support/system/available_memory.h"
+#include "bench/workers/shared_workload.h"
 
 namespace touchmark::bench::workers {
 namespace {
@@ -33,5 +34,7 @@ EvictionSizes eviction_sizes() {
   return eviction_sizes(size_of(_SC_LEVEL2_CACHE_SIZE), size_of(_SC_LEVEL3_CACHE_SIZE),
                         available ? static_cast<std::size_t>(*available / 8) : std::size_t{1} << 30U);
 }
+
+std::size_t steps_to_evict_all() { return 1 + eviction_sizes().all / OutputBuffers::bytes_for(1); }
 
 }  // namespace touchmark::bench::workers

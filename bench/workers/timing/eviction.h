@@ -32,5 +32,7 @@ struct EvictionSizes {
 EvictionSizes eviction_sizes(std::size_t second_level_cache, std::size_t last_level_cache, std::size_t most);
 /// By this machine's caches, and at most an eighth of the memory that was available at the first call.
 EvictionSizes eviction_sizes();
+/// Returns how many steps' room in the output buffers has the bytes that empty all caches.
+std::size_t steps_to_evict_all();
 
 }  // namespace touchmark::bench::workers
