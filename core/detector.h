@@ -106,6 +106,13 @@ struct LimitedWork : Work {
   }
 };
 
+/// What is known of the nearest triangle after a search within a budget of work.
+struct Bracket {
+  std::optional<Contact> contact;  ///< of the nearest triangle found; nothing: none is within the reach
+  double lower = 0;        ///< no triangle is nearer; the contact's distance, or the reach, if is_nearest
+  bool is_nearest = true;  ///< true: the contact is what `nearest` answers
+};
+
 // Version 14 takes `noexcept ->` apart.
 // clang-format off
 /// `D::build(mesh, options)` throws std::invalid_argument on options that make no sense, naming the offender.
@@ -135,6 +142,17 @@ template <class D>
 concept AnswersNearest = Detector<D> &&
     requires(const D& detector, const Probe& probe, double reach, typename D::Session& session) {
   { detector.nearest(probe, reach, session) } noexcept -> std::same_as<std::optional<Contact>>;
+};
+
+/// As `nearest`, but ends once about `budget` was looked at. Where that leaves the answer open, the true
+/// distance is from `lower` to the contact's distance, and a later search starts from that contact. Of a
+/// structure that is built lazily a search may go on until it has found a triangle; one for a probe so far off
+/// that floats do not tell its distance looks at all triangles.
+template <class D>
+concept AnswersWithinBudget = AnswersNearest<D> &&
+    requires(const D& detector, const Probe& probe, double reach, typename D::Session& session,
+             std::uint64_t budget) {
+  { detector.nearest(probe, reach, session, budget) } noexcept -> std::same_as<Bracket>;
 };
 
 /// The first touch of a probe that moves along a straight line, or nothing: where no point of the path from

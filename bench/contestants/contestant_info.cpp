@@ -28,11 +28,12 @@ bool all_chosen(std::string_view conditions, const OptionValues& values) {
     const std::size_t end = conditions.find(with);
     const std::string_view pair = conditions.substr(0, end);
     const std::size_t equals = pair.find('=');
-    const auto chosen = values.all().find(std::string(pair.substr(0, equals)));
+    const bool is_other = equals != std::string_view::npos && equals > 0 && pair[equals - 1] == '!';
+    const auto chosen = values.all().find(std::string(pair.substr(0, is_other ? equals - 1 : equals)));
     if (equals == std::string_view::npos || chosen == values.all().end()) {
       throw std::invalid_argument(fmt::format("\"{}\" is not an option and its value", pair));
     }
-    if (chosen->second != pair.substr(equals + 1)) return false;
+    if ((chosen->second != pair.substr(equals + 1)) != is_other) return false;
     if (end == std::string_view::npos) return true;
     conditions.remove_prefix(end + with.size());
   }

@@ -84,7 +84,7 @@ struct ContestantInfo {
   bool ours = false;                           ///< True if its entry is one of bench/contestants/own.
   std::string summary;                         ///< one line
   /// What its forms claim: "GUARANTEE" or "GUARANTEE; KEY=VALUE[ with KEY=VALUE]: GUARANTEE[; ...]", of which
-  /// the last whose options are chosen holds.
+  /// the last whose options are chosen holds. KEY!=VALUE holds for any other value.
   std::string accuracy;
   std::vector<workload::Query> queries;
   std::vector<OptionInfo> options;

@@ -259,6 +259,14 @@ class ContestantOf final : public Contestant {
     if constexpr (AnswersNearest<D>) {
       if (query == workload::Query::nearest) {
         return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
+          if constexpr (requires { detector.bracket(steps[i].probe, steps[i].reach, session); }) {
+            const Bracket bracket = detector.bracket(steps[i].probe, steps[i].reach, session);
+            if (!bracket.contact) return workload::Answer{};
+            workload::Answer answer =
+                workload::Answer::of(*bracket.contact, bracket.is_nearest ? 0 : bracket.lower);
+            answer.unfinished = bracket.is_nearest ? 0 : 1;
+            return answer;
+          }
           const std::optional<Contact> contact = detector.nearest(steps[i].probe, steps[i].reach, session);
           return contact ? about_body(workload::Answer::of(*contact), session) : workload::Answer{};
         });

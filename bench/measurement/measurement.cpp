@@ -40,6 +40,7 @@ Measurement::Measurement(const workload::Workload& workload, const workers::Shar
       effort_(effort),
       process_(process),
       busy_before_s_(process.busy_s()),
+      diagonal_(workload.mesh.diagonal()),
       task_{trace, query, 1},
       plan_(plan) {
   row_.detector = process.spec().name;
@@ -154,6 +155,20 @@ void Measurement::verify(ground_truth::TraceTruths& truths, ground_truth::TraceT
   if (alive() && effort_.repetitions > 0) judge_second_pass(truths);
 }
 
+std::optional<BracketSummary> summarize_brackets(std::span<const workload::Answer> answers, double diagonal) {
+  BracketSummary summary;
+  std::vector<double> widths;
+  for (const workload::Answer& answer : answers) {
+    const bool unfinished = answer.unfinished != 0;
+    summary.unfinished += unfinished ? 1 : 0;
+    widths.push_back(unfinished ? (answer.distance - answer.fraction) / diagonal : 0);
+  }
+  if (summary.unfinished == 0) return std::nullopt;
+  summary.p50 = support::median(widths);
+  summary.max = *std::ranges::max_element(widths);
+  return summary;
+}
+
 void Measurement::judge_second_pass(ground_truth::TraceTruths& truths) {
   attempt([&] {
     verified_ = verified_passes(process_, task_, *row_.checksum, *row_.accuracy, [&] {
@@ -178,6 +193,7 @@ void Measurement::judge(ground_truth::TraceTruths& truths, ground_truth::TraceTr
     row_.status = "checksum mismatch";
     return;
   }
+  row_.brackets = summarize_brackets(answers, diagonal_);
   row_.decisions_checksum = decisions_checksum_of(task_.query, answers, *row_.accuracy);
   const bool logged = row_.steps <= effort_.max_logged_steps;
   std::vector<oracle::Charge> charges;

@@ -55,6 +55,15 @@ inline WorkResult summarize_work(std::span<const std::uint64_t> work, const Work
           *std::max_element(work.begin(), work.end()), total};
 }
 
+/// How far apart the bounds of unfinished answers are, of the diagonal, over all answers.
+struct BracketSummary {
+  std::uint64_t unfinished = 0;
+  double p50 = 0, max = 0;
+};
+
+/// Returns nothing where all answers are finished.
+std::optional<BracketSummary> summarize_brackets(std::span<const workload::Answer> answers, double diagonal);
+
 /// Empty is what was not measured, because the contestant did not come so far.
 struct ResultRow {
   std::string detector;
@@ -91,6 +100,7 @@ struct ResultRow {
   std::optional<std::uint64_t> bytes;
   std::optional<std::uint64_t> heap_bytes;
   std::optional<WorkResult> work;
+  std::optional<BracketSummary> brackets;
   std::optional<std::uint64_t> checksum;
   std::optional<std::uint64_t> decisions_checksum;  ///< see decisions_checksum_of
 

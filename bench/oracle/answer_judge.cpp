@@ -123,6 +123,27 @@ void AnswerJudge::contact(const GroundTruth& truth, const Vec3& center, const wo
   }
 }
 
+void AnswerJudge::bracket(const GroundTruth& truth, const Vec3& center, const workload::Answer& answer,
+                          ErrorCounts& counts) const {
+  const auto [begin, end] = oracle_.named_by(answer);
+  if (begin == end) {
+    ++counts.wrong_triangle;
+    return;
+  }
+  GroundTruth named = oracle_.solve(center, static_cast<std::uint32_t>(begin));
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    const GroundTruth other = oracle_.solve(center, static_cast<std::uint32_t>(i));
+    if (other.high < named.high) named = other;
+  }
+  const double rounding = allowed(named.largest_difference) + ulp(named.high);
+  const double off = std::abs((answer.distance - named.high) - named.low);
+  if (!(answer.fraction >= 0 && answer.fraction <= answer.distance) || off > rounding ||
+      !oracle_.within(truth, center, raised(answer.distance + rounding)) ||
+      oracle_.within(truth, center, lowered(answer.fraction - rounding)))
+    ++counts.malformed;
+  note_distance_error(std::abs((answer.distance - truth.high) - truth.low), counts);
+}
+
 void AnswerJudge::position(const GroundTruth& truth, workload::Query query, const Probe& probe, double reach,
                            const workload::Answer& answer, ErrorCounts& counts) const {
   ++counts.judged;
@@ -132,6 +153,10 @@ void AnswerJudge::position(const GroundTruth& truth, workload::Query query, cons
   const bool beyond_doubles = truth.defined ? std::isinf(truth.high) : !probe.center.hasNaN();
   if (has_fields && !beyond_doubles && !well_formed(answer, reported_)) {
     ++counts.malformed;
+    return;
+  }
+  if (has_fields && answer.unfinished != 0) {
+    bracket(truth, probe.center, answer, counts);
     return;
   }
   const double limit = query == workload::Query::touches ? probe.radius : reach;

@@ -71,6 +71,9 @@ class AnswerJudge {
   std::vector<GroundTruth> with_id(const GroundTruth& truth, const Vec3& center,
                                    const workload::Answer& answer, double position_error) const;
   std::vector<GroundTruth> tied(const GroundTruth& truth, const Vec3& center, double position_error) const;
+  /// Judges an answer that leaves open whether a triangle is nearer than the one it names.
+  void bracket(const GroundTruth& truth, const Vec3& center, const workload::Answer& answer,
+               ErrorCounts& counts) const;
   void note_distance_error(double error, ErrorCounts& counts) const;
   /// Returns true if it names another triangle than the first of the nearest, and claims not to.
   bool is_misnamed(const GroundTruth& truth, const workload::Answer& answer) const {

@@ -29,8 +29,8 @@ struct ErrorCounts {
   std::uint64_t rounding = 0;          ///< off by more than that, within physical_tolerance
   std::uint64_t wrong_point = 0;   ///< point off its triangle, or not the one nearest to the centre, likewise
   std::uint64_t wrong_normal = 0;  ///< normal not unit, or turned by more than the accuracy can explain
-  std::uint64_t malformed =
-      0;  ///< NaN or infinity in a field, a negative distance, a fraction outside [0, 1]
+  std::uint64_t malformed = 0;  ///< NaN or infinity in a field, a negative distance, a fraction outside [0,
+                                ///< 1], or a bracket of the distance that does not hold the true one
   std::uint64_t wrong_side =
       0;  ///< nearest only: inside, outside or on the surface where that is not so; not to say is not wrong
   std::uint64_t unresolved = 0;  ///< differs from the truth, but within the accuracy of the threshold

@@ -16,12 +16,13 @@ enum class Query : std::uint32_t { touches, nearest, sweep };
 struct Answer {
   std::uint32_t found = 0;  ///< touches: true. nearest: within reach. sweep: a hit on the way.
   TriangleId triangle = 0;  ///< the rest is zero unless found
-  double fraction = 0;      ///< sweep only
+  double fraction = 0;      ///< sweep; nearest, unfinished: no triangle is nearer than this
   double distance = 0;
   double point[3] = {0, 0, 0};
   double normal[3] = {0, 0, 0};
   Side side = Side::unasked;
-  std::uint8_t unused[3] = {0, 0, 0};
+  std::uint8_t unfinished = 0;  ///< nearest within a budget: a nearer triangle is left open
+  std::uint8_t unused[2] = {0, 0};
   std::uint32_t body = 0;  ///< which of a scene's; 0 where there is one mesh
 
   static Answer of(const Contact& contact, double fraction = 0) {
@@ -32,7 +33,8 @@ struct Answer {
             {contact.point.x(), contact.point.y(), contact.point.z()},
             {contact.normal.x(), contact.normal.y(), contact.normal.z()},
             contact.side,
-            {0, 0, 0},
+            0,
+            {0, 0},
             0};
   }
 };

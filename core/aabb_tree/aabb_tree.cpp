@@ -125,14 +125,16 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
   return false;
 }
 
-std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Session& session) const noexcept {
-  const Vec3& center = probe.center;
-  if (!(reach >= 0)) return std::nullopt;
+/// Returns what exhausted(candidates, unseen) does where boxes and triangles come to more than the budget;
+/// `unseen` bounds the distance of what was not looked at.
+template <class Exhausted>
+std::optional<Contact> AabbTree::search_nearest(const Vec3& center, double reach, Session& session,
+                                                std::uint64_t budget,
+                                                const Exhausted& exhausted) const noexcept {
   const double difference = largest_difference(bounds(), center);
   const double error = certified_ ? distance_error(difference) : 0, pad = culling_pad(difference);
   Work& work = session.work;
   if (std::isinf(error)) return fallback().nearest(center, reach, work);
-  const std::uint64_t budget = work_limit(work);
   ClosestCandidates candidates(triangles_.data(), center, error);
   const auto consider = [&](std::uint32_t i) {
     ++work.triangles;
@@ -146,7 +148,11 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   std::size_t count = 0;
   stack[count++] = {bound_below(nodes_[0].box, center, pad), 0};
   while (count > 0) {
-    if (work.boxes + work.triangles > budget) return fallback().nearest(center, reach, work);
+    if (work.boxes + work.triangles > budget) {
+      double unseen = limit;
+      for (std::size_t i = 0; i < count; ++i) unseen = std::min(unseen, stack[i].bound);
+      return exhausted(candidates, unseen);
+    }
     const StackEntry next = stack[--count];
     if (!(next.bound <= limit)) continue;
     const Node& node = nodes_[next.node];
@@ -169,6 +175,39 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   if (candidates.found() && std::sqrt(candidates.best().squared_distance) <= reach)
     session.last = candidates.at();
   return contact_of(candidates, triangles_, center, reach, error, ids_, work, certified_);
+}
+
+std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Session& session) const noexcept {
+  if (!(reach >= 0)) return std::nullopt;
+  const auto look_at_all = [&](const ClosestCandidates&, double) {
+    return fallback().nearest(probe.center, reach, session.work);
+  };
+  return search_nearest(probe.center, reach, session, work_limit(session.work), look_at_all);
+}
+
+Bracket AabbTree::nearest(const Probe& probe, double reach, Session& session,
+                          std::uint64_t budget) const noexcept {
+  if (!(reach >= 0)) return {std::nullopt, reach, true};
+  Bracket bracket;
+  const Vec3& center = probe.center;
+  // The first triangle of the tree is as good as another where none was found before.
+  if (session.last >= triangles_.size()) session.last = 0;
+  const auto exhausted = [&](const ClosestCandidates& candidates, double unseen) -> std::optional<Contact> {
+    session.last = candidates.at();
+    const PreparedTriangle& triangle = triangles_[session.last];
+    const Offset offset = offset_from(triangle, center);
+    const double error = distance_error(largest_difference(bounds(), center));
+    bracket.lower = std::max(std::min(unseen, std::sqrt(offset.squared)) - error, 0.0);
+    bracket.is_nearest = bracket.lower > reach;
+    if (bracket.is_nearest) return std::nullopt;
+    return contact_at(triangle, center, offset, ids_[triangle.index]);
+  };
+  bracket.contact = budget < work_budget(triangles_.size())
+                        ? search_nearest(center, reach, session,
+                                         session.work.boxes + session.work.triangles + budget, exhausted)
+                        : nearest(probe, reach, session);
+  if (bracket.is_nearest) bracket.lower = bracket.contact ? bracket.contact->distance : reach;
+  return bracket;
 }
 
 std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) const noexcept {

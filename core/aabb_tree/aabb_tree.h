@@ -48,6 +48,8 @@ class AabbTree {
 
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
+  /// See the concept AnswersWithinBudget.
+  Bracket nearest(const Probe& probe, double reach, Session& session, std::uint64_t budget) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept;
@@ -102,6 +104,9 @@ class AabbTree {
   static double lower_bound(const Aabb& box, const Vec3& center, double pad) noexcept;
   const Aabb& bounds() const noexcept { return nodes_.front().box; }
   double expected_cost() const noexcept;
+  template <class Exhausted>
+  std::optional<Contact> search_nearest(const Vec3& center, double reach, Session& session,
+                                        std::uint64_t budget, const Exhausted& exhausted) const noexcept;
   LinearScan fallback() const noexcept { return {triangles_, bounds(), ids_, certified_}; }
   std::uint64_t work_limit(const Work& work) const noexcept {
     return work.boxes + work.triangles + work_budget(triangles_.size());

@@ -9,6 +9,7 @@
 /// and may have
 ///   update_within(slot), enough   the first triangle surely no farther than `enough` ends the search
 ///   takes_as_far(slot)   true if that triangle is known to be as far as the nearest
+///   left   takes a bound, squared, of what `traverse` had not shown when the budget was exhausted
 /// A sweep's visitor has until(), the length of the path that is left, work and consider(slot).
 #pragma once
 

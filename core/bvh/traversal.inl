@@ -274,6 +274,12 @@ template <class Visitor>
   return true;
 }
 
+/// Returns the least of some bounds and those of what waits.
+[[gnu::cold, gnu::noinline]] static float least_bound(float bound, std::span<const StackEntry> waiting) noexcept {
+  for (const StackEntry& entry : waiting) bound = std::min(bound, entry.bound);
+  return bound;
+}
+
 /// Shows the visitor every triangle that may be within its limit, nearest volumes first. Returns a lower
 /// bound of the squared distance to what it was not shown, or `exhausted` when the visitor's work has come to
 /// more than `budget` before the end. Never inlined: whoever mostly answers without it would pay for its
@@ -290,6 +296,8 @@ template <class Visitor>
     if (next.bound > visitor.limit) {
       unseen = min(unseen, Wide{} + next.bound);
     } else if (visitor.work.spheres + visitor.work.triangles > budget) {
+      if constexpr (requires { visitor.left; })
+        visitor.left = least_bound(std::min(reduce_min(unseen), next.bound), {stack.data(), count});
       return exhausted;
     } else if (next.ref.is_block()) {
       if (visit_block(tree, next.ref.index(), p, unseen, visitor)) break;

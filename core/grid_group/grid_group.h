@@ -61,6 +61,10 @@ class GridGroup {
     if (!queries::asks_nearest(surface_, probe, reach, session)) return std::nullopt;
     return look_for_nearest(probe.center, reach, session);
   }
+  /// See the concept AnswersWithinBudget. The search is that of the hierarchy, without groups.
+  Bracket nearest(const Probe& probe, double reach, Session& session, std::uint64_t budget) const noexcept {
+    return queries::nearest_bracket(surface_, probe, reach, budget, session);
+  }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
     return queries::first_hit(surface_, sweep, session);
   }

@@ -45,6 +45,9 @@ bool close_triangles(const Surface& surface, const Vec3& center, double reach, d
 /// See the concept ListsTriangles (listing.cpp).
 bool list_triangles(const Surface& surface, const Vec3& center, double radius, ListedTriangles& into,
                     LimitedWork& work) noexcept;
+/// See the concept AnswersWithinBudget (bracket/bracket.cpp).
+Bracket nearest_bracket(const Surface& surface, const Probe& probe, double reach, std::uint64_t budget,
+                        Session& session) noexcept;
 /// Refills the list of leaves for the next query where the point is near, and asks the question ahead, where
 /// the point will be if it goes on as it moved, unless that is known to be clear.
 void prepare(const Surface& surface, const LastQuestion& question, PointMemory& memory,

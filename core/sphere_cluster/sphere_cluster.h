@@ -52,6 +52,10 @@ class SphereCluster {
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     return queries::nearest(surface_, probe, reach, session);
   }
+  /// See the concept AnswersWithinBudget.
+  Bracket nearest(const Probe& probe, double reach, Session& session, std::uint64_t budget) const noexcept {
+    return queries::nearest_bracket(surface_, probe, reach, budget, session);
+  }
   /// Answers likewise for one of many points that are asked again and again. See the concept FollowsPoints.
   std::optional<Contact> nearest(const Probe& probe, double reach, FollowedPoint& followed,
                                  Work& work) const noexcept {

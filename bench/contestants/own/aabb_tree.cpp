@@ -3,6 +3,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "bench/contestants/budgeted.h"
 #include "bench/contestants/own_options.h"
 #include "bench/contestants/own_scene.h"
 #include "core/aabb_tree/float_tree.h"
@@ -16,17 +17,22 @@ ContestantInfo aabb_tree_entry() {
   info.name = "aabb-tree";
   info.rank = 20;
   info.summary = "a plain binary tree of boxes: the reference";
-  info.accuracy = "exact; precision=float: approximate";
+  info.accuracy = "exact; precision=float: approximate; budget!=0: conservative";
   info.queries = queries_of<AabbTree>();
   info.options = options_with<AabbTree::Options>(
       {{"leaf_size",
         choice("precision", precisions,
                "float: mesh, boxes, kernel and distances in single precision; touches and nearest, "
                "no side, nothing certified")},
-       {"threads", updated_option()}});
+       {"threads", updated_option()},
+       {"threads", budget_option()}});
   info.build = [=](const TriangleMesh& mesh, const OptionValues& values) {
     const auto options = form_of<AabbTree::Options>(mesh, values);
-    if (!in_floats(values)) return contestant<AabbTree>(mesh, options, values);
+    if (!in_floats(values)) {
+      if (auto within_budget = budgeted<AabbTree>(mesh, options, values)) return within_budget;
+      return contestant<AabbTree>(mesh, options, values);
+    }
+    refuse_budget(values);
     if (asks_for_side(values)) throw std::invalid_argument("aabb-tree: precision=float tells no side");
     return contestant<FloatTree>(mesh, {options.leaf_size, options.threads});
   };
@@ -43,8 +49,8 @@ ContestantInfo aabb_tree_entry() {
   };
   info.library = library_class("aabb_tree", "AabbTree");
   info.forms = {.compared = {""},
-                .verified = {"precision=float", "updated=true"},
-                .frontier = {"", "certified=false", "precision=float"},
+                .verified = {"precision=float", "updated=true", "budget=32"},
+                .frontier = {"", "certified=false", "precision=float", "budget=8", "budget=32", "budget=128"},
                 .scaled = {""},
                 .updated = {""},
                 .scenes = {""},

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/contestants/budgeted.h"
 #include "bench/contestants/own_options.h"
 #include "bench/contestants/own_scene.h"
 #include "core/grid_group/published/published_grid_group.h"
@@ -40,16 +41,21 @@ ContestantInfo grid_group_entry() {
   info.name = "grid-group";
   info.rank = 30;
   info.summary = "triangles grouped by uniform cells, after Park & Jang 2018";
-  info.accuracy = "exact";
+  info.accuracy = "exact; budget!=0: conservative";
   info.queries = queries_of<GridGroup>();
   info.options = options_with<GridGroupForm>(
       {{"build",
         prepare_option("true: ask the last question again before each query, clocked apart; direct")},
-       {"threads", updated_option()}});
+       {"threads", updated_option()},
+       {"threads", budget_option()}});
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     const auto form = form_of<GridGroupForm>(mesh, values);
-    return form.is_published ? build<PublishedGridGroup>(mesh, form.published_options(), values)
-                             : build<GridGroup>(mesh, form.fast, values);
+    if (form.is_published) {
+      refuse_budget(values);
+      return build<PublishedGridGroup>(mesh, form.published_options(), values);
+    }
+    if (auto within_budget = budgeted<GridGroup>(mesh, form.fast, values)) return within_budget;
+    return build<GridGroup>(mesh, form.fast, values);
   };
   info.build_scene = [](const scenes::PlacedScene& placed, const OptionValues& values) {
     return is_published(values)
@@ -63,15 +69,16 @@ ContestantInfo grid_group_entry() {
     if (!is_published(values)) return {"grid_group", "GridGroup", {"shape", "groups"}};
     return {"published_grid_group", "PublishedGridGroup", {"bytes_per_triangle", "prepare", "threads"}};
   };
-  info.forms = {.compared = {"lookup=scan", "lookup=scan,shape=sphere", ""},
-                .verified = {"cell=1%", "lookup=scan,shape=centered-sphere", "build=lazy", "threads=2",
-                             "prepare=true", "updated=true", "build=lazy,updated=true"},
-                .frontier = {"", "certified=false", "cell=0.5%", "cell=4%"},
-                .scaled = {""},
-                .chosen = {"bytes_per_triangle=300", "prepare=true"},
-                .updated = {""},
-                .suite = {""},
-                .scenes = {""}};
+  info.forms = {
+      .compared = {"lookup=scan", "lookup=scan,shape=sphere", ""},
+      .verified = {"cell=1%", "lookup=scan,shape=centered-sphere", "build=lazy", "threads=2", "prepare=true",
+                   "updated=true", "build=lazy,updated=true", "budget=32"},
+      .frontier = {"", "certified=false", "cell=0.5%", "cell=4%", "budget=8", "budget=32", "budget=128"},
+      .scaled = {""},
+      .chosen = {"bytes_per_triangle=300", "prepare=true"},
+      .updated = {""},
+      .suite = {""},
+      .scenes = {""}};
   return info;
 }
 

@@ -1,5 +1,6 @@
 #include "core/sphere_cluster/sphere_cluster.h"
 
+#include "bench/contestants/budgeted.h"
 #include "bench/contestants/own_options.h"
 #include "bench/contestants/own_scene.h"
 #include "core/sphere_cluster/published/published_sphere_cluster.h"
@@ -22,17 +23,21 @@ ContestantInfo sphere_cluster_entry() {
   info.former_names = {{"auto", {"query", "reach", "speed", "bytes_per_triangle", "trial", "chose"}}};
   info.rank = 40;
   info.summary = "triangles in clustered bounding spheres, after Choi & Sung 2017";
-  info.accuracy = "exact; precise=false: conservative";
+  info.accuracy = "exact; precise=false: conservative; budget!=0: conservative";
   info.queries = queries_of<SphereCluster>();
   info.options = options_with<SphereClusterForm>(
       {{"build",
         prepare_option(
             "true: list triangles for the next step and ask ahead before each query, clocked apart")},
-       {"threads", updated_option()}});
+       {"threads", updated_option()},
+       {"threads", budget_option()}});
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     const auto form = form_of<SphereClusterForm>(mesh, values);
-    if (form.is_published())
+    if (form.is_published()) {
+      refuse_budget(values);
       return prepared_contestant<PublishedSphereCluster>(mesh, form.published_options(), values);
+    }
+    if (auto within_budget = budgeted<SphereCluster>(mesh, form.fast, values)) return within_budget;
     return prepared_contestant<SphereCluster>(mesh, form.fast, values);
   };
   info.build_scene = [](const scenes::PlacedScene& placed, const OptionValues& values) {
@@ -47,11 +52,12 @@ ContestantInfo sphere_cluster_entry() {
   };
   info.forms = {.compared = {"lookup=scan", "lookup=scan,precise=false", ""},
                 .verified = {"clustering=2%", "build=lazy", "threads=2", "prepare=true", "updated=true",
-                             "build=lazy,updated=true", "lookup=scan,clustering=2%",
+                             "build=lazy,updated=true", "budget=32", "lookup=scan,clustering=2%",
                              "lookup=scan,clustering=2%,precise=false"},
                 .frontier = {"", "certified=false", "clustering=2%", "precise=false",
                              "clustering=0.5%,precise=false", "clustering=1%,precise=false",
-                             "clustering=2%,precise=false", "clustering=5%,precise=false"},
+                             "clustering=2%,precise=false", "clustering=5%,precise=false", "budget=8",
+                             "budget=16", "budget=32", "budget=64", "budget=128", "budget=256"},
                 .scaled = {""},
                 .chosen = {"prepare=true"},
                 .updated = {""},
