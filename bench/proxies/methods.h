@@ -40,6 +40,9 @@ struct MethodRequest {
 
 using MakeMethod = std::unique_ptr<ProxyMethod> (*)(const MethodRequest& request);
 
+/// Coupling::max_work where nothing else is asked for: it ends few ticks of a hand.
+inline constexpr std::uint64_t usual_max_work = 4000;
+
 struct MethodOption {
   std::string_view key, default_value, meaning;
   bool is_number = false;

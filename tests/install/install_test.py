@@ -258,6 +258,7 @@ class Install(unittest.TestCase):
         motion.write_text("x,y,z\n" + "".join(f"0,0,{0.01 * i}\n" for i in range(20)), encoding="utf-8")
         bodies = ("--scene", "heap:3", "--rate", "1", "--motion", motion)
         for contestant, query, scene in (
+                ("sphere-cluster:prepare=true", "sweep --proxy", mesh), ("grid-group", "sweep --proxy", bodies),
                 ("sphere-cluster:prepare=true,clustering=2%,simd=portable", "nearest", mesh),
                 ("grid-group:lookup=scan,shape=centered-sphere,cell=0.5,side=on", "nearest", mesh),
                 ("grid-group:bytes_per_triangle=200,build=lazy", "touches", mesh),
@@ -269,7 +270,7 @@ class Install(unittest.TestCase):
                 ("sphere-cluster:lookup=scan", "nearest", bodies), ("grid-group:lookup=scan,cell=0.5", "sweep", bodies),
                 ("aabb-tree", "touches", bodies)):
             with self.subTest(contestant), tempfile.TemporaryDirectory() as out:
-                run(program, "choose", *scene, "--quick", "--share", "1", "--query", query,
+                run(program, "choose", *scene, "--quick", "--share", "1", "--query", *query.split(),
                     "--detector", contestant, "--out", out)
                 code = pathlib.Path(out, "choose.cpp").read_text(encoding="utf-8")
                 for compiler in COMPILERS:

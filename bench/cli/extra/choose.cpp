@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <ratio>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "bench/cli/run_frame.h"
 #include "bench/cli/selected_workload.h"
 #include "bench/cli/worker_options.h"
+#include "bench/contestants/entry.h"
 #include "bench/experiments/choose/candidate.h"
 #include "bench/experiments/choose/choose_code.h"
 #include "bench/experiments/choose/choose_csv.h"
@@ -71,6 +73,7 @@ class ChooseCommand {
   const contestants::ContestantSpec& spec_of(const choose::Candidate& candidate) const;
   std::string code(const std::vector<std::size_t>& ranked) const;
   double minutes() const { return std::chrono::duration<double, std::ratio<60>>(deadline_ - start_).count(); }
+  void keep_those_for_a_proxy();
   void measure();
   void measure_motions(measurement::Comparison& comparison);
   /// Adds what was measured of the motion during which time was up, where no other counts or it is no less.
@@ -113,7 +116,7 @@ ChooseCommand::ChooseCommand(const ProgramContext& context, const ChooseOptions&
       deadline_(start_ + checked_minutes(options)),
       progress_(std::in_place, "choose", start_, deadline_),
       limits_(checked_limits(options)),
-      selection_(contestants::check(options.selectors, context.roster)),
+      selection_(contestants::check(checked_selectors(options), context.roster)),
       workers_(worker_options(options.workers)),
       frame_(context, options.out),
       workload_(workload_for(options, selection_, limits_.rate_hz)) {
@@ -122,9 +125,23 @@ ChooseCommand::ChooseCommand(const ProgramContext& context, const ChooseOptions&
     selection_.contestants = options.selectors.scene.empty()
                                  ? context.roster.candidates(frame_.description.query)
                                  : context.roster.scene_candidates(frame_.description.query);
+  if (options.proxy) keep_those_for_a_proxy();
   frame_.description.seed = selection_.seed;
   frame_.description.effort = effort_for(options.quick);
   frame_.description.core = workers_.core = results::core_for_workers();
+}
+
+void ChooseCommand::keep_those_for_a_proxy() {
+  const auto is_unfit = [&](const contestants::ContestantSpec& spec) {
+    const contestants::ContestantInfo& info = context_.roster.find(spec.name);
+    const std::string name = info.library ? info.library(spec.values).name : "";
+    return (name != "SphereCluster" && name != "GridGroup") || contestants::asks_for_side(spec.values);
+  };
+  const auto unfit = std::ranges::find_if(selection_.contestants, is_unfit);
+  if (!options_.selectors.detectors.empty() && unfit != selection_.contestants.end())
+    throw std::invalid_argument(fmt::format(
+        "--proxy: {} keeps to no bound of work; sphere-cluster and grid-group do", unfit->text()));
+  std::erase_if(selection_.contestants, is_unfit);
 }
 
 const contestants::ContestantSpec& ChooseCommand::spec_of(const choose::Candidate& candidate) const {
@@ -140,7 +157,7 @@ std::string ChooseCommand::code(const std::vector<std::size_t>& ranked) const {
     const contestants::ContestantSpec& spec = spec_of(candidates_[i]);
     const bool is_class = context_.roster.find(spec.name).library != nullptr;
     if (text.empty() || is_class)
-      text += choose::code_for(context_.roster, spec, workload_, frame_.description.query);
+      text += choose::code_for(context_.roster, spec, workload_, {frame_.description.query, options_.proxy});
     if (is_class || !workload_.scene) break;
   }
   return text;

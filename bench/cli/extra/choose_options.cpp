@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 #include <ratio>
+#include <stdexcept>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -52,6 +53,16 @@ experiments::choose::Limits checked_limits(const ChooseOptions& options) {
       checked_share(options.share), checked_memory(options.memory)};
 }
 
+contestants::Selectors checked_selectors(const ChooseOptions& options) {
+  contestants::Selectors selectors = options.selectors;
+  if (!options.proxy) return selectors;
+  if (selectors.query != contestants::Selectors().query && selectors.query != "sweep")
+    throw std::invalid_argument(fmt::format(
+        "--proxy compares sweeps, not --query {}: leave out --query, or --proxy", selectors.query));
+  selectors.query = "sweep";
+  return selectors;
+}
+
 support::Deadline::duration checked_minutes(const ChooseOptions& options) {
   constexpr double most = 1e6;
   const std::optional<double> minutes = support::parse_number(options.minutes);
@@ -84,6 +95,9 @@ void add_choose_options(CLI::App& command, ProgramContext& context, ChooseOption
             "how long to measure: what was measured by then is compared, and status 4 says that nothing was");
   add_value(command, "--out", options.out, "DIR",
             "folder for choose.csv, choose.cpp, results.csv and run.json");
+  command.add_flag(
+      "--proxy", options.proxy,
+      "compare detectors that keep to a bound of work by their sweeps, and print a class that steps a proxy");
   command.add_flag("--quick", options.quick, "fewer steps, and fewer queries with emptied caches");
   add_worker_selectors(command, options.workers);
 }

@@ -8,6 +8,7 @@
 #include "bench/cli/worker_options.h"
 #include "bench/contestants/selectors.h"
 #include "bench/experiments/servo/servo_row.h"
+#include "bench/proxies/methods.h"
 
 namespace touchmark::bench::cli {
 
@@ -17,7 +18,7 @@ struct ServoOptions {
   contestants::Selectors selectors;
   std::string seconds = "10", load, work_us = "0", cpu, out;
   bool proxy = false, evict = false;
-  std::string method, max_work = std::to_string(experiments::servo::usual_max_work);
+  std::string method, max_work = std::to_string(proxies::usual_max_work);
   CouplingSelectors coupling;
   WorkerSelectors workers;
 };

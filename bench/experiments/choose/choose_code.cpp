@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "bench/contestants/entry.h"
+#include "bench/proxies/methods.h"
 #include "bench/support/length.h"
 
 namespace touchmark::bench::experiments::choose {
@@ -50,26 +51,49 @@ struct Question {
   std::string answer, parameters, call;
 };
 
-Question question_of(const workload::Workload& workload, workload::Query query) {
+/// What a class with a proxy has besides; of one without all are empty.
+struct ProxyParts {
+  std::string header, place, member, after_move;
+};
+
+ProxyParts proxy_parts(const workload::Workload& workload, const std::string& type,
+                       const std::string& member) {
+  return {
+      "proxy",
+      "  // The proxy belongs to this object.\n"
+      "  HapticContacts(const HapticContacts&) = delete;\n"
+      "  HapticContacts& operator=(const HapticContacts&) = delete;\n\n"
+      "  // Where the device is when the loop begins, off the surface.\n"
+      "  void place(const touchmark::Vec3& hand) noexcept { proxy_.place(hand); }\n\n",
+      fmt::format("  // Set .stiffness to what the device holds, in N a mesh unit. max_work bounds a step.\n"
+                  "  touchmark::Proxy<{}> proxy_{{{}, {{.radius = {}, .max_work = {}}}}};\n",
+                  type, member, literal(workload.radius), proxies::usual_max_work),
+      " proxy_.surface_moved();"};
+}
+
+const Question steps_proxy{"const touchmark::ProxyState&", "const touchmark::Vec3& hand",
+                           "proxy_.step(hand, session_)"};
+
+Question question_of(const workload::Workload& workload, workload::Query query, const std::string& asked) {
   const std::string radius = literal(workload.radius);
   const std::string reach = literal(workload.reach.value_or(workload.radius));
   switch (query) {
     case workload::Query::touches:
       return {"bool", "const touchmark::Vec3& center",
-              fmt::format("touches({{center, {}}}, session_)", radius)};
+              fmt::format("{}.touches({{center, {}}}, session_)", asked, radius)};
     case workload::Query::nearest:
       return {"std::optional<touchmark::Contact>", "const touchmark::Vec3& center",
-              fmt::format("nearest({{center, {}}}, {}, session_)", radius, reach)};
+              fmt::format("{}.nearest({{center, {}}}, {}, session_)", asked, radius, reach)};
     case workload::Query::sweep:
       break;
   }
   return {"std::optional<touchmark::Impact>", "const touchmark::Vec3& from, const touchmark::Vec3& to",
-          fmt::format("first_hit({{from, to, {}}}, session_)", radius)};
+          fmt::format("{}.first_hit({{from, to, {}}}, session_)", asked, radius)};
 }
 
 /// Asks over bodies, and says whose the contact is.
 Question question_about_bodies(const workload::Workload& workload, workload::Query query) {
-  Question question = question_of(workload, query);
+  Question question = question_of(workload, query, "scene_");
   for (const auto& [word, with_body] :
        {std::pair{"nearest(", "nearest_body("}, std::pair{"first_hit(", "first_hit_body("},
         std::pair{"::Contact>", "::BodyContact>"}, std::pair{"::Impact>", "::BodyImpact>"}}) {
@@ -102,11 +126,13 @@ std::string options_function(const std::string& type, const contestants::Contest
 }
 
 std::string scene_code_for(const contestants::ContestantInfo& info, const contestants::ContestantSpec& spec,
-                           const workload::Workload& workload, workload::Query query) {
+                           const workload::Workload& workload, const Use& use) {
   const contestants::LibraryClass library = info.library(spec.values);
   const std::string type = "touchmark::" + library.name;
-  const Question question = question_about_bodies(workload, query);
+  const Question question = use.proxy ? steps_proxy : question_about_bodies(workload, use.query);
+  const ProxyParts proxy = use.proxy ? proxy_parts(workload, "Scene", "scene_") : ProxyParts{};
   std::vector<std::string> headers{library.header, "pose", "probe", "scene", "triangle_mesh"};
+  if (use.proxy) headers.push_back(proxy.header);
   std::sort(headers.begin(), headers.end());
   std::string text = fmt::format(
       "// {}, as touchmark choose recommends it for these bodies. Lengths are in the scene's units.\n",
@@ -115,7 +141,7 @@ std::string scene_code_for(const contestants::ContestantInfo& info, const contes
   for (const std::string& header : headers) text += fmt::format("#include <touchmark/{}.h>\n", header);
   text += fmt::format(
       "\nclass HapticContacts {{\n public:\n"
-      "  using Scene = touchmark::Scene<{0}>;\n\n"
+      "  using Scene = touchmark::Scene<{0}>;\n\n{5}"
       "  // Any number of bodies may have the shape.\n"
       "  touchmark::ShapeId add_shape(touchmark::TriangleMesh mesh) {{\n"
       "    const {0}::Options options = options_for(mesh);\n"
@@ -124,11 +150,12 @@ std::string scene_code_for(const contestants::ContestantInfo& info, const contes
       "  touchmark::BodyId add(touchmark::ShapeId shape, const touchmark::Pose& pose) {{ return "
       "scene_.add(shape, pose); }}\n"
       "  // Between two calls of ask; touchmark/shared_scene.h is for another thread.\n"
-      "  void move(touchmark::BodyId body, const touchmark::Pose& pose) {{ scene_.move(body, pose); }}\n\n"
+      "  void move(touchmark::BodyId body, const touchmark::Pose& pose) {{ scene_.move(body, pose);{6} }}\n\n"
       "  // Once a tick, by the thread of one haptic point.\n"
-      "  {1} ask({2}) noexcept {{\n    return scene_.{3};\n  }}\n\n private:\n{4}\n"
-      "  Scene scene_;\n  Scene::Session session_;\n}};\n",
-      type, question.answer, question.parameters, question.call, options_function(type, info, spec.values));
+      "  {1} ask({2}) noexcept {{\n    return {3};\n  }}\n\n private:\n{4}\n"
+      "  Scene scene_;\n  Scene::Session session_;\n{7}}};\n",
+      type, question.answer, question.parameters, question.call, options_function(type, info, spec.values),
+      proxy.place, proxy.after_move, proxy.member);
   return text;
 }
 
@@ -140,16 +167,18 @@ bool is_on(const contestants::OptionValues& values, const std::string& key) {
 }  // namespace
 
 std::string code_for(const contestants::Roster& roster, const contestants::ContestantSpec& spec,
-                     const workload::Workload& workload, workload::Query query) {
+                     const workload::Workload& workload, const Use& use) {
   const contestants::ContestantInfo& info = roster.find(spec.name);
   if (!info.library) return no_class(info, spec.text());
-  if (workload.scene) return scene_code_for(info, spec, workload, query);
+  if (workload.scene) return scene_code_for(info, spec, workload, use);
   const bool sides = contestants::asks_for_side(spec.values);
   const contestants::LibraryClass library = info.library(spec.values);
   const std::string type = "touchmark::" + library.name;
   const std::string detector = sides ? fmt::format("touchmark::Signed<{}>", type) : type;
-  const Question question = question_of(workload, query);
+  const Question question = use.proxy ? steps_proxy : question_of(workload, use.query, "detector_");
+  const ProxyParts proxy = use.proxy ? proxy_parts(workload, detector, "detector_") : ProxyParts{};
   std::vector<std::string> headers{library.header, "probe", "triangle_mesh"};
+  if (use.proxy) headers.push_back(proxy.header);
   if (sides) headers.emplace_back("signed_detector");
   std::sort(headers.begin(), headers.end());
   std::string text =
@@ -159,16 +188,16 @@ std::string code_for(const contestants::Roster& roster, const contestants::Conte
   text += fmt::format(
       "\nclass HapticContacts {{\n public:\n"
       "  explicit HapticContacts(const touchmark::TriangleMesh& mesh)\n"
-      "      : detector_({}::build(mesh, options_for(mesh))) {{}}\n\n"
+      "      : detector_({}::build(mesh, options_for(mesh))) {{}}\n\n{}"
       "  // Once a tick, by the thread of one haptic point.\n"
-      "  {} ask({}) noexcept {{\n    return detector_.{};\n  }}\n",
-      detector, question.answer, question.parameters, question.call);
+      "  {} ask({}) noexcept {{\n    return {};\n  }}\n",
+      detector, proxy.place, question.answer, question.parameters, question.call);
   if (is_on(spec.values, "prepare") && library.has("prepare"))
     text +=
         "\n  // Right after waking, before the device is read: what the caches lost comes back here.\n"
         "  void prepare() noexcept { detector_.prepare(session_); }\n";
-  text += fmt::format("\n private:\n{0}\n  {1} detector_;\n  {1}::Session session_;\n}};\n",
-                      options_function(type, info, spec.values), detector);
+  text += fmt::format("\n private:\n{0}\n  {1} detector_;\n  {1}::Session session_;\n{2}}};\n",
+                      options_function(type, info, spec.values), detector, proxy.member);
   return text;
 }
 

@@ -19,9 +19,6 @@ namespace touchmark::bench::experiments::servo {
 /// The status of a row whose loop, or idle loop, was ended.
 inline constexpr const char* overrun = "overrun";
 
-/// A proxy's step is bounded by this where nothing else is asked: it ends few ticks of a hand.
-inline constexpr std::uint64_t usual_max_work = 4000;
-
 struct ServoSettings {
   double rate_hz = 1000;
   std::uint64_t ticks = 10'000;  ///< each contestant's; its idle loop has as many more

@@ -53,6 +53,28 @@ TEST_F(Choose, RecommendsOneThatIsRightAndPrintsItsCode) {
   expect_valid();
 }
 
+TEST_F(Choose, OfAProxyPrintsAClassThatStepsItWithinABound) {
+  const Outcome outcome = choose({"--trajectory", "slide", "--proxy"});
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find(".max_work = 4000"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("proxy_.step(hand, session_)"), std::string::npos) << outcome.out;
+  const Fields detectors = column("detector");
+  EXPECT_EQ(std::find(detectors.begin(), detectors.end(), "aabb-tree"), detectors.end());
+  expect_valid();
+}
+
+TEST_F(Choose, OfAProxyRefusesWhatKeepsToNoBound) {
+  for (const auto& [more, way_out] :
+       {std::pair{Fields{"--detector", "aabb-tree"}, "sphere-cluster and grid-group do"},
+        std::pair{Fields{"--query", "touches"}, "leave out --query"}}) {
+    Fields command{"--trajectory", "slide", "--proxy"};
+    command.insert(command.end(), more.begin(), more.end());
+    const Outcome outcome = choose(command);
+    EXPECT_EQ(outcome.status, 2) << outcome.out;
+    EXPECT_NE(outcome.err.find(way_out), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(Choose, SaysWhyNoneHoldsAndEndsWithStatus1) {
   const Outcome outcome = choose({"--trajectory", "slide", "--detector", "sphere-cluster", "--detector",
                                   "sphere-cluster:lookup=scan,precise=false", "--memory", "1KB"});
