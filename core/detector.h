@@ -108,7 +108,7 @@ struct LimitedWork : Work {
 
 /// What is known of the nearest triangle after a search within a budget of work.
 struct Bracket {
-  std::optional<Contact> contact;  ///< of the nearest triangle found; nothing: none is within the reach
+  std::optional<Contact> contact;  ///< the nearest triangle found; nothing: none is within the reach
   double lower = 0;        ///< no triangle is nearer; the contact's distance, or the reach, if is_nearest
   bool is_nearest = true;  ///< true: the contact is what `nearest` answers
 };

@@ -42,6 +42,8 @@ class TraceTruths {
   /// Returns what is known so far, a step each.
   std::vector<StepTruth> known(workload::Query query) const;
 
+  /// The one of the box around mesh or bodies.
+  double diagonal() const { return reference().bounds().diagonal(); }
   /// How far these steps, ascending, are from the surface; infinite where a coordinate is not finite.
   virtual std::vector<double> distances(const std::vector<std::size_t>& steps) = 0;
 

@@ -40,7 +40,6 @@ Measurement::Measurement(const workload::Workload& workload, const workers::Shar
       effort_(effort),
       process_(process),
       busy_before_s_(process.busy_s()),
-      diagonal_(workload.mesh.diagonal()),
       task_{trace, query, 1},
       plan_(plan) {
   row_.detector = process.spec().name;
@@ -155,7 +154,7 @@ void Measurement::verify(ground_truth::TraceTruths& truths, ground_truth::TraceT
   if (alive() && effort_.repetitions > 0) judge_second_pass(truths);
 }
 
-std::optional<BracketSummary> summarize_brackets(std::span<const workload::Answer> answers, double diagonal) {
+BracketSummary summarize_brackets(std::span<const workload::Answer> answers, double diagonal) {
   BracketSummary summary;
   std::vector<double> widths;
   for (const workload::Answer& answer : answers) {
@@ -163,7 +162,7 @@ std::optional<BracketSummary> summarize_brackets(std::span<const workload::Answe
     summary.unfinished += unfinished ? 1 : 0;
     widths.push_back(unfinished ? (answer.distance - answer.fraction) / diagonal : 0);
   }
-  if (summary.unfinished == 0) return std::nullopt;
+  if (summary.unfinished == 0) return summary;
   summary.p50 = support::median(widths);
   summary.max = *std::ranges::max_element(widths);
   return summary;
@@ -193,7 +192,7 @@ void Measurement::judge(ground_truth::TraceTruths& truths, ground_truth::TraceTr
     row_.status = "checksum mismatch";
     return;
   }
-  row_.brackets = summarize_brackets(answers, diagonal_);
+  row_.work->brackets = summarize_brackets(answers, truths.diagonal());
   row_.decisions_checksum = decisions_checksum_of(task_.query, answers, *row_.accuracy);
   const bool logged = row_.steps <= effort_.max_logged_steps;
   std::vector<oracle::Charge> charges;

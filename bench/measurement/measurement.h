@@ -97,7 +97,6 @@ class Measurement {
   const Effort& effort_;
   workers::ContestantProcess& process_;
   double busy_before_s_;  ///< the process may have served other measurements
-  double diagonal_;       ///< the mesh's
   ResultRow row_;
   workers::Task task_;
   const workload::SamplePlan& plan_;

@@ -43,10 +43,19 @@ struct ThroughputResult {
   std::vector<double> each_cpu_ns{};  ///< processor time, likewise
 };
 
+/// How far apart the bounds of unfinished answers are, of the diagonal, over all answers.
+struct BracketSummary {
+  std::uint64_t unfinished = 0;
+  double p50 = 0, max = 0;
+};
+
+BracketSummary summarize_brackets(std::span<const workload::Answer> answers, double diagonal);
+
 struct WorkResult {
   double mean = 0;  ///< cells, spheres, boxes and triangles looked at, a step
   std::uint64_t max = 0;
-  Work total;  ///< over all steps, by kind
+  Work total;                    ///< over all steps, by kind
+  BracketSummary brackets = {};  ///< what a budget of work left open
 };
 
 /// Summarizes the work of at least one step; `total` is that of all of them.
@@ -54,15 +63,6 @@ inline WorkResult summarize_work(std::span<const std::uint64_t> work, const Work
   return {static_cast<double>(total.total()) / static_cast<double>(work.size()),
           *std::max_element(work.begin(), work.end()), total};
 }
-
-/// How far apart the bounds of unfinished answers are, of the diagonal, over all answers.
-struct BracketSummary {
-  std::uint64_t unfinished = 0;
-  double p50 = 0, max = 0;
-};
-
-/// Returns nothing where all answers are finished.
-std::optional<BracketSummary> summarize_brackets(std::span<const workload::Answer> answers, double diagonal);
 
 /// Empty is what was not measured, because the contestant did not come so far.
 struct ResultRow {
@@ -100,7 +100,6 @@ struct ResultRow {
   std::optional<std::uint64_t> bytes;
   std::optional<std::uint64_t> heap_bytes;
   std::optional<WorkResult> work;
-  std::optional<BracketSummary> brackets;
   std::optional<std::uint64_t> checksum;
   std::optional<std::uint64_t> decisions_checksum;  ///< see decisions_checksum_of
 

@@ -275,15 +275,15 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"source", [](Row) { return std::string(); }, optional, any_text,
      "in what `touchmark merge` writes: the job's file that the row is from, and the code of the machine "
      "that ran it, as `--machine` takes it"},
-    {"unfinished", text<&R::brackets, &B::unfinished>, optional, whole_number,
+    {"unfinished", text<&R::work, &W::brackets, &B::unfinished>, optional, whole_number,
      "with the option `budget`: answers that leave open whether a triangle is nearer than the one named. "
      "They "
      "tell a bracket, which holds the true distance; one that does not is `malformed`. Empty: all are "
      "finished"},
-    {"bracket_p50", rounded<6, &R::brackets, &B::p50>, optional, finite,
+    {"bracket_p50", rounded<6, &R::work, &W::brackets, &B::p50>, optional, finite,
      "the median of how far the brackets' ends are apart, over the diagonal of the mesh's box; 0 where "
      "finished"},
-    {"bracket_max", rounded<6, &R::brackets, &B::max>, optional, finite, "the most of these"},
+    {"bracket_max", rounded<6, &R::work, &W::brackets, &B::max>, optional, finite, "the most of these"},
 });
 
 }  // namespace

@@ -61,6 +61,21 @@ measurement::Effort effort_for(bool quick) {
   return effort;
 }
 
+/// Throws std::invalid_argument where one that was asked for by name keeps to no bound.
+void keep_those_for_a_proxy(const contestants::Roster& roster, bool by_name,
+                            std::vector<contestants::ContestantSpec>& specs) {
+  const auto is_unfit = [&](const contestants::ContestantSpec& spec) {
+    const contestants::ContestantInfo& info = roster.find(spec.name);
+    const std::string name = info.library ? info.library(spec.values).name : "";
+    return (name != "SphereCluster" && name != "GridGroup") || contestants::asks_for_side(spec.values);
+  };
+  const auto unfit = std::ranges::find_if(specs, is_unfit);
+  if (by_name && unfit != specs.end())
+    throw std::invalid_argument(fmt::format(
+        "--proxy: {} keeps to no bound of work; sphere-cluster and grid-group do", unfit->text()));
+  std::erase_if(specs, is_unfit);
+}
+
 class ChooseCommand {
  public:
   ChooseCommand(const ProgramContext& context, const ChooseOptions& options);
@@ -73,7 +88,6 @@ class ChooseCommand {
   const contestants::ContestantSpec& spec_of(const choose::Candidate& candidate) const;
   std::string code(const std::vector<std::size_t>& ranked) const;
   double minutes() const { return std::chrono::duration<double, std::ratio<60>>(deadline_ - start_).count(); }
-  void keep_those_for_a_proxy();
   void measure();
   void measure_motions(measurement::Comparison& comparison);
   /// Adds what was measured of the motion during which time was up, where no other counts or it is no less.
@@ -125,23 +139,11 @@ ChooseCommand::ChooseCommand(const ProgramContext& context, const ChooseOptions&
     selection_.contestants = options.selectors.scene.empty()
                                  ? context.roster.candidates(frame_.description.query)
                                  : context.roster.scene_candidates(frame_.description.query);
-  if (options.proxy) keep_those_for_a_proxy();
+  if (options.proxy)
+    keep_those_for_a_proxy(context.roster, !options.selectors.detectors.empty(), selection_.contestants);
   frame_.description.seed = selection_.seed;
   frame_.description.effort = effort_for(options.quick);
   frame_.description.core = workers_.core = results::core_for_workers();
-}
-
-void ChooseCommand::keep_those_for_a_proxy() {
-  const auto is_unfit = [&](const contestants::ContestantSpec& spec) {
-    const contestants::ContestantInfo& info = context_.roster.find(spec.name);
-    const std::string name = info.library ? info.library(spec.values).name : "";
-    return (name != "SphereCluster" && name != "GridGroup") || contestants::asks_for_side(spec.values);
-  };
-  const auto unfit = std::ranges::find_if(selection_.contestants, is_unfit);
-  if (!options_.selectors.detectors.empty() && unfit != selection_.contestants.end())
-    throw std::invalid_argument(fmt::format(
-        "--proxy: {} keeps to no bound of work; sphere-cluster and grid-group do", unfit->text()));
-  std::erase_if(selection_.contestants, is_unfit);
 }
 
 const contestants::ContestantSpec& ChooseCommand::spec_of(const choose::Candidate& candidate) const {
