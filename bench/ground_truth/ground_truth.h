@@ -43,7 +43,7 @@ class TraceTruths {
   std::vector<StepTruth> known(workload::Query query) const;
 
   /// The one of the box around mesh or bodies.
-  double diagonal() const { return reference().bounds().diagonal(); }
+  double diagonal() const { return (reference().bounds().max - reference().bounds().min).norm(); }
   /// How far these steps, ascending, are from the surface; infinite where a coordinate is not finite.
   virtual std::vector<double> distances(const std::vector<std::size_t>& steps) = 0;
 
