@@ -30,4 +30,13 @@ Described WorkerRoster::describe(const std::string& plugin) {
   return {"", info.name, info.summary, info.accuracy, info.queries, info.options};
 }
 
+Reproduced WorkerRoster::reproduce(const request::Reproduce& request) {
+  try {
+    ensure_loaded(request.plugin);
+    return {"", contestants::reproduction(request.question)};
+  } catch (const std::exception& error) {
+    return {error.what(), ""};
+  }
+}
+
 }  // namespace touchmark::bench::workers
