@@ -18,10 +18,10 @@ contestants::ContestantSpec WorkerRoster::chosen(const request::Build& request) 
   return (**this).parse(request.contestant);
 }
 
-Described WorkerRoster::describe(const std::string& plugin) {
+Described WorkerRoster::reply(const request::Describe& request) {
   Described described;
   try {
-    ensure_loaded(plugin);
+    ensure_loaded(request.plugin);
   } catch (const std::exception& error) {
     described.refused = error.what();
     return described;
@@ -30,7 +30,7 @@ Described WorkerRoster::describe(const std::string& plugin) {
   return {"", info.name, info.summary, info.accuracy, info.queries, info.options};
 }
 
-Reproduced WorkerRoster::reproduce(const request::Reproduce& request) {
+Reproduced WorkerRoster::reply(const request::Reproduce& request) {
   try {
     ensure_loaded(request.plugin);
     return {"", contestants::reproduction(request.question)};
