@@ -24,7 +24,7 @@ function candidates(center, { a, b, ab, ac, bc }) {
   return [on_edge(center, a, ab), on_edge(center, a, ac), on_edge(center, b, bc)];
 }
 
-// Called once with a Float64Array, three numbers a vertex, and a Uint32Array, three vertices a triangle, which are its to
+// Called with a Float64Array, three numbers a vertex, and a Uint32Array, three vertices a triangle, which are its to
 // keep. It may be async, for an engine that is still being loaded; the queries may not.
 export function build(vertices, triangles) {
   const vertex = (corner) => Array.from(vertices.subarray(3 * triangles[corner], 3 * triangles[corner] + 3));
