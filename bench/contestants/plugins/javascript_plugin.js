@@ -27,11 +27,18 @@ const detectors = new Map();
 let plugin = null;
 let doing = ""; // stands before what is thrown
 
+// Where node cannot parse the module: it shows the line to a terminal, and keeps it from whoever imports.
+function unparsed_line() {
+  const { stderr } = require("child_process").spawnSync(process.execPath, ["--check", FILE], { encoding: "utf-8" });
+  return (/^.*:(\d+)$/m.exec(stderr) || [])[1];
+}
+
 // What was thrown, in one line, and where in the module.
 function described(error) {
   const is_error = error !== null && typeof error === "object" && typeof error.message === "string";
   const text = is_error ? `${error.name || "Error"}: ${error.message}` : `thrown: ${inspect(error, { depth: 0 })}`;
-  const line = parseInt(String(is_error && error.stack).split(`${ADDRESS}:`)[1], 10);
+  const in_stack = String(is_error && error.stack).split(`${ADDRESS}:`)[1];
+  const line = parseInt(in_stack || (plugin === null && error instanceof SyntaxError ? unparsed_line() : ""), 10);
   const place = line > 0 ? ` (${path.basename(FILE)}, line ${line})` : "";
   return (doing + text.replace(/: $/, "") + place).split(/\s+/).join(" ");
 }
