@@ -71,7 +71,7 @@ void add_new_plugin(CLI::App& program, ProgramContext& context) {
   const auto language = std::make_shared<std::string>("cpp");
   CLI::App* command = add_command(program, "new-plugin");
   add_value(*command, "folder", *folder, "DIR", "where its files go")->required();
-  add_value(*command, "--language", *language, "NAME", "cpp, python or javascript")
+  add_value(*command, "--language", *language, "NAME", "what the example is written in")
       ->check(CLI::IsMember({"cpp", "python", "javascript"}));
   command->footer(
       "In C++ it is built against the installed package. No file is written over.\n"
