@@ -1,4 +1,4 @@
-/// The example of docs/examples/plugin, which the program carries with it.
+/// The examples of docs/examples/plugin, which the program carries with it.
 #pragma once
 
 #include <array>
@@ -7,9 +7,9 @@
 namespace touchmark::bench::cli {
 
 struct NewPluginFile {
-  std::string_view name, content;
+  std::string_view language, name, content;
 };
 
-extern const std::array<NewPluginFile, 2> new_plugin_files;
+extern const std::array<NewPluginFile, 4> new_plugin_files;
 
 }  // namespace touchmark::bench::cli

@@ -53,7 +53,7 @@ void add_plugins(CLI::App& command, ProgramContext& context, std::vector<std::st
             if (detectors != nullptr) add_unnamed(loaded, command.count("--detector") > 0, *detectors);
           },
           "a contestant of yours: a shared object that keeps to touchmark/contestant.h (touchmark "
-          "new-plugin), or a script in Python; repeatable")
+          "new-plugin), or a script in Python or JavaScript; repeatable")
       ->type_name("FILE")
       ->expected(1)
       ->take_all();

@@ -24,19 +24,21 @@ std::string found_file(const std::string& path) {
   return full.string();
 }
 
-Described ask(const std::string& file, const std::string& program) {
+/// Asks a worker that lives for one request.
+template <class Request>
+typename Request::Reply ask(const Request& request) {
+  const std::string program(contestants::plugin_kind_of(request.plugin).worker_program);
   // A worker finds its descriptors open, though there is nothing to be read yet.
   const SharedMemory input = SharedMemory::create(1), output = SharedMemory::create(1);
   WorkerProcess process({program, {}, input.descriptor(), output.descriptor(), {}, false, {}});
   try {
-    return std::get<Described>(process.ask(request::Describe{file}, timeout));
+    return std::get<typename Request::Reply>(process.ask(request, timeout));
   } catch (const WorkerFailure& failure) {
     throw std::invalid_argument(std::string("loading it ends in ") + failure.what());
   }
 }
 
-contestants::ContestantInfo info_of(Described described, const std::string& file,
-                                    const std::string& program) {
+contestants::ContestantInfo info_of(Described described, const std::string& file) {
   contestants::ContestantInfo info;
   info.name = std::move(described.name);
   info.summary = std::move(described.summary);
@@ -44,7 +46,8 @@ contestants::ContestantInfo info_of(Described described, const std::string& file
   info.queries = std::move(described.queries);
   info.options = std::move(described.options);
   info.plugin = file;
-  info.worker_program = [program](const contestants::OptionValues&) { return program; };
+  info.worker_program = [program = std::string(contestants::plugin_kind_of(file).worker_program)](
+                            const contestants::OptionValues&) { return program; };
   info.build = [](const TriangleMesh&,
                   const contestants::OptionValues&) -> std::unique_ptr<contestants::Contestant> {
     throw std::logic_error("plug-ins are built in workers");
@@ -56,10 +59,28 @@ contestants::ContestantInfo info_of(Described described, const std::string& file
 
 contestants::ContestantInfo described_plugin(const std::string& path) {
   const std::string file = found_file(path);
-  const std::string program(contestants::plugin_kind_of(path).worker_program);
-  Described described = ask(file, program);
+  Described described = ask(request::Describe{file});
   if (!described.refused.empty()) throw std::invalid_argument(described.refused);
-  return info_of(std::move(described), file, program);
+  return info_of(std::move(described), file);
+}
+
+std::string reproduction(const std::string& path, const TriangleMesh& mesh, workload::Query query,
+                         const Vec3& from, const workload::Step& step) {
+  contestants::ReproducedQuestion asked;
+  asked.query = query;
+  for (const Vec3& vertex : mesh.vertices())
+    asked.coordinates.insert(asked.coordinates.end(), vertex.begin(), vertex.end());
+  for (const TriangleMesh::Corners& corners : mesh.triangles())
+    asked.corners.insert(asked.corners.end(), corners.begin(), corners.end());
+  const Vec3& center = step.probe.center;
+  const double radius = step.probe.radius;
+  asked.values = {center.x(), center.y(), center.z(),
+                  query == workload::Query::nearest ? step.reach : radius};
+  if (query == workload::Query::sweep)
+    asked.values = {from.x(), from.y(), from.z(), center.x(), center.y(), center.z(), radius};
+  Reproduced made = ask(request::Reproduce{found_file(path), std::move(asked)});
+  if (!made.refused.empty()) throw std::invalid_argument(made.refused);
+  return std::move(made.script);
 }
 
 }  // namespace touchmark::bench::workers

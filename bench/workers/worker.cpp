@@ -61,9 +61,7 @@ class Worker {
     return std::visit(
         [&](const auto& one) -> Reply {
           using Kind = std::decay_t<decltype(one)>;
-          constexpr bool before = std::is_same_v<Kind, request::Open> ||
-                                  std::is_same_v<Kind, request::Build> ||
-                                  std::is_same_v<Kind, request::Describe>;
+          constexpr bool before = std::is_same_v<Kind, request::Open> || requires { one.plugin; };
           if (!before && contestant_ == nullptr) throw std::logic_error("nothing is built");
           return typename Kind::Reply(handle(one));
         },
@@ -72,7 +70,11 @@ class Worker {
 
  private:
   Opened handle(const request::Open& request);
-  Described handle(const request::Describe& request) { return roster_.describe(request.plugin); }
+  /// Describe and Reproduce.
+  template <class Asked>
+  typename Asked::Reply handle(const Asked& request) {
+    return roster_.reply(request);
+  }
   Built handle(const request::Build& request);
   Updated handle(const request::Update& request);
   Done handle(const request::Rebuild& request);

@@ -179,7 +179,8 @@ void WorkerProcess::explain(const Ending& ending) const {
 
 Reply WorkerProcess::ask(const Request& request, std::chrono::milliseconds timeout) {
   if (process_ <= 0) throw WorkerFailure("ended");
-  loads_plugin_ = std::holds_alternative<request::Describe>(request);
+  loads_plugin_ = std::holds_alternative<request::Describe>(request) ||
+                  std::holds_alternative<request::Reproduce>(request);
   channel_.send(line_of(request));  // one that is gone may have left a reply that says why
   std::string line;
   const auto deadline = std::chrono::steady_clock::now() + timeout;

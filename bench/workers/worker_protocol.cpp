@@ -27,6 +27,18 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OptionInfo, key, kind, choices, default_value
 
 namespace bench {
 
+namespace contestants {
+// A reach may be infinite.
+static void to_json(nlohmann::json& json, const ReproducedQuestion& asked) {
+  json = {asked.query, std::bit_cast<std::array<std::uint64_t, 8>>(asked.values), asked.coordinates,
+          asked.corners};
+}
+static void from_json(const nlohmann::json& json, ReproducedQuestion& asked) {
+  const auto bits = json.at(1).get<std::array<std::uint64_t, 8>>();
+  asked = {json.at(0), std::bit_cast<std::array<double, 8>>(bits), json.at(2), json.at(3)};
+}
+}  // namespace contestants
+
 namespace workload {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepRange, begin, end)
 }  // namespace workload
@@ -48,6 +60,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Opened, clock_cost_ns, ns_per_tick, flushed_t
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Built, refused, build_ms, bytes, heap_bytes, accuracy, queries, prepares,
                                    builds_lazily, remarks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Described, refused, name, summary, accuracy, queries, options)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Reproduced, refused, script)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Answered, checksum, work)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Timed, ns_per_query, cpu_ns_per_query, checksum, steady, work, samples,
                                    interrupted)
@@ -62,6 +75,7 @@ static void from_json(const nlohmann::json&, Done&) {}
 namespace request {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Open, layout, calibrate_clock)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Describe, plugin)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Reproduce, plugin, question)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Build, contestant, plugin)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Update, deformation)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Rebuild, deformation)

@@ -14,6 +14,7 @@
 
 #include "bench/contestants/contestant.h"
 #include "bench/contestants/contestant_info.h"
+#include "bench/contestants/plugins/script_plugin.h"
 #include "bench/meshes/deformation.h"
 #include "bench/workers/shared_workload.h"
 #include "bench/workers/timing/paced_replay.h"
@@ -81,6 +82,12 @@ struct Described {
   std::vector<contestants::OptionInfo> options;
 };
 
+/// What a plug-in's own script of a question is.
+struct Reproduced {
+  std::string refused;  ///< what it raised; empty: nothing
+  std::string script;   ///< empty: it writes none
+};
+
 struct Answered {
   std::uint64_t checksum = 0;
   Work work;  ///< all steps'
@@ -133,6 +140,13 @@ struct Open {
 struct Describe {
   using Reply = Described;
   std::string plugin;
+};
+
+/// Comes alone, too. What a script that shows the answer to a question would be, in the plug-in's own API.
+struct Reproduce {
+  using Reply = Reproduced;
+  std::string plugin;
+  contestants::ReproducedQuestion question;
 };
 
 /// May come again.
@@ -259,9 +273,9 @@ struct Lines {
 using Request = std::variant<request::Open, request::Build, request::Update, request::Rebuild, request::First,
                              request::Calibrate, request::Answer, request::AnswerAfresh, request::FirstPass,
                              request::Time, request::Sample, request::Latency, request::Servo, request::Cold,
-                             request::Lines, request::Describe>;
+                             request::Lines, request::Describe, request::Reproduce>;
 using Reply = std::variant<NotStarted, OutOfResources, Done, Opened, Built, Answered, Timed, Updated,
-                           ServoStretch, ColdSamples, Described, Broken>;
+                           ServoStretch, ColdSamples, Described, Broken, Reproduced>;
 
 // A line is [which of them, {its members}], so that a reply NotStarted is [0,{"error":2}]. Bytes that are not
 // UTF-8, which messages of rivals and file names may hold, are replaced.

@@ -18,16 +18,25 @@ contestants::ContestantSpec WorkerRoster::chosen(const request::Build& request) 
   return (**this).parse(request.contestant);
 }
 
-Described WorkerRoster::describe(const std::string& plugin) {
+Described WorkerRoster::reply(const request::Describe& request) {
   Described described;
   try {
-    ensure_loaded(plugin);
+    ensure_loaded(request.plugin);
   } catch (const std::exception& error) {
     described.refused = error.what();
     return described;
   }
   const contestants::ContestantInfo& info = plugin_->contestants().front();
   return {"", info.name, info.summary, info.accuracy, info.queries, info.options};
+}
+
+Reproduced WorkerRoster::reply(const request::Reproduce& request) {
+  try {
+    ensure_loaded(request.plugin);
+    return {"", contestants::reproduction(request.question)};
+  } catch (const std::exception& error) {
+    return {error.what(), ""};
+  }
 }
 
 }  // namespace touchmark::bench::workers

@@ -19,7 +19,8 @@ class WorkerRoster {
 
   /// Throws std::exception where the plug-in is none, or the contestant's text names no contestant.
   contestants::ContestantSpec chosen(const request::Build& request);
-  Described describe(const std::string& plugin);
+  Described reply(const request::Describe& request);
+  Reproduced reply(const request::Reproduce& request);
 
   const contestants::Roster& operator*() const noexcept { return plugin_ ? *plugin_ : own_; }
   const contestants::Roster* operator->() const noexcept { return &**this; }

@@ -9,14 +9,17 @@
 #include <fmt/format.h>
 
 #include "bench/contestants/plugins/c_plugin.h"
-#include "bench/contestants/plugins/python_plugin.h"
+#include "bench/contestants/plugins/script_plugin.h"
 
 namespace touchmark::bench::contestants {
 namespace {
 
 constexpr std::array kinds{
     PluginKind{".so", "touchmark-worker-plugin", "a shared object", load_c_plugin},
-    PluginKind{".py", "touchmark-worker-plugin", "a script in Python", load_python_plugin},
+    PluginKind{".py", "touchmark-worker-plugin", "a script in Python",
+               [](const std::string& path) { return load_script_plugin(python, path); }},
+    PluginKind{".mjs", "touchmark-worker-plugin", "a module in JavaScript",
+               [](const std::string& path) { return load_script_plugin(javascript, path); }},
 };
 
 /// libmine.so, and libmine.so.1.2 as well.

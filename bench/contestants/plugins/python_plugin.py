@@ -1,4 +1,4 @@
-"""Runs the user's script for a worker: the other end of bench/contestants/plugins/python_process.h."""
+"""Runs the user's script for a worker: the other end of bench/contestants/plugins/script_process.h."""
 import importlib.util
 import os
 import socket
@@ -9,7 +9,7 @@ import traceback
 PATH, CHANNEL = sys.argv[1], int(sys.argv[2])
 MESSAGE = struct.Struct("=B3xI8d")
 COUNTS = struct.Struct("=QQ")
-DESCRIBE, BUILD, DESTROY, TOUCHES, NEAREST, FIRST_HIT, NOTHING = range(7)
+DESCRIBE, BUILD, DESTROY, TOUCHES, NEAREST, FIRST_HIT, NOTHING, REPRODUCE = range(8)
 NO, YES, FAILED = range(3)
 NO_TRIANGLE = 2**32 - 1
 ZEROS = (0.0,) * 8
@@ -71,10 +71,28 @@ class Script:
                           " ".join(queries)])
 
     def build(self, number, vertices, faces):
-        points = self.numpy.frombuffer(vertices, self.numpy.float64).reshape(-1, 3)
-        corners = self.numpy.frombuffer(faces, self.numpy.uint32).reshape(-1, 3)
-        detector = self.detectors[number] = self.kind(points, corners)
+        detector = self.detectors[number] = self.kind(self.points(vertices), self.corners(faces))
         return YES, number, (float(getattr(detector, "nbytes", 0)), float(getattr(detector, "error", 0)), *ZEROS[2:])
+
+    def reproduce(self, query, values, vertices, faces):
+        """What shows the answer to a question in the engine's own API, or nothing where the module cannot say."""
+        write = getattr(self.module, "reproduce", None)
+        if write is None:
+            return ""
+        point = list(values[:3])
+        question = {TOUCHES: {"query": "touches", "center": point, "radius": values[3]},
+                    NEAREST: {"query": "nearest", "center": point, "reach": values[3]},
+                    FIRST_HIT: {"query": "first_hit", "from": point, "to": list(values[3:6]), "radius": values[6]}}[query]
+        text = write(self.points(vertices), self.corners(faces), question)
+        if not isinstance(text, str):
+            raise TypeError(f"reproduce returned {text!r:.60}; it must return a text")
+        return text
+
+    def points(self, vertices):
+        return self.numpy.frombuffer(vertices, self.numpy.float64).reshape(-1, 3)
+
+    def corners(self, faces):
+        return self.numpy.frombuffer(faces, self.numpy.uint32).reshape(-1, 3)
 
     def ask(self, code, number, values):
         detector, point = self.detectors[number], self.numpy.array(values[:3])
@@ -113,6 +131,10 @@ def serve(channel):
             view = view[got:]
         return data
 
+    def receive_mesh():
+        vertices, faces = COUNTS.unpack(receive(COUNTS.size))
+        return bytes(receive(24 * vertices)), bytes(receive(12 * faces))
+
     while True:
         code, number, *values = MESSAGE.unpack(receive(MESSAGE.size))
         text = b""
@@ -124,8 +146,10 @@ def serve(channel):
                 text = script.describe().encode()
                 answer = YES, len(text), ZEROS
             elif code == BUILD:
-                vertices, faces = COUNTS.unpack(receive(COUNTS.size))
-                answer = script.build(number, bytes(receive(24 * vertices)), bytes(receive(12 * faces)))
+                answer = script.build(number, *receive_mesh())
+            elif code == REPRODUCE:
+                text = script.reproduce(number, values, *receive_mesh()).encode()
+                answer = YES, len(text), ZEROS
             elif code == DESTROY:
                 script.detectors.pop(number, None)
                 answer = YES, 0, ZEROS
