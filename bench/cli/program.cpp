@@ -66,7 +66,7 @@ constexpr OptionGroup option_groups[] = {
      "--drape --steps --seed "},
     {"Query", " --query --radius --reach "},
     {"Detectors", " --detector --plugin --frontier --timeout --worker-output "},
-    {"Output", " --out --steps-out --csv --json --markdown --junit --manifest --trace --wide "}};
+    {"Output", " --out --reproduce --steps-out --csv --json --markdown --junit --manifest --trace --wide "}};
 
 /// Groups the options in the help of a command, and of its subcommands, if there are at least twelve.
 void group_options(CLI::App& command) {
