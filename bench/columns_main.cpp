@@ -1,11 +1,12 @@
-/// Prints the columns of results.csv, or of suite.csv, proxy.csv, many.csv or bodies.csv where "suite",
-/// "proxy", "many" or "bodies" is the argument, as the table that scripts/docs puts into
+/// Prints the columns of results.csv, or of suite.csv, proxy.csv, many.csv, bodies.csv or audit.csv where
+/// "suite", "proxy", "many", "bodies" or "audit" is the argument, as the table that scripts/docs puts into
 /// docs/reference/results-csv.md.
 #include <array>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "bench/experiments/audit/audit_row.h"
 #include "bench/experiments/many/many_row.h"
 #include "bench/experiments/proxy/proxy_csv.h"
 #include "bench/experiments/scaling/body_row.h"
@@ -54,6 +55,8 @@ int main(int argc, char** argv) {
     print_table(touchmark::bench::experiments::many::many_columns());
   } else if (of == "bodies") {
     print_table(touchmark::bench::experiments::scaling::body_columns());
+  } else if (of == "audit") {
+    print_table(touchmark::bench::experiments::audit::audit_columns());
   } else if (of == "proxy") {
     print_table(touchmark::bench::experiments::proxy::proxy_columns());
   } else {

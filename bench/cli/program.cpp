@@ -40,6 +40,7 @@ constexpr CommandText command_texts[] = {
     {first, "list", "what can be chosen: contestants, meshes, scenes, trajectories"},
     {answers, "query", "one contestant's answer to every step of a trajectory, as CSV"},
     {answers, "verify", "check contestants' answers against the exact oracle"},
+    {answers, "audit", "does an engine keep to a mesh's shape, or take it for its convex hull?"},
     {answers, "stress", "hard questions of many kinds, every answer against the exact oracle"},
     {answers, "proxy", "which haptic proxy crosses the surface? every way is replayed by the exact oracle"},
     {studies, "scale", "how build, memory and query time grow with the mesh"},
@@ -65,7 +66,7 @@ constexpr OptionGroup option_groups[] = {
      "--drape --steps --seed "},
     {"Query", " --query --radius --reach "},
     {"Detectors", " --detector --plugin --frontier --timeout --worker-output "},
-    {"Output", " --out --steps-out --csv --json --markdown --junit --manifest --trace --wide "}};
+    {"Output", " --out --reproduce --steps-out --csv --json --markdown --junit --manifest --trace --wide "}};
 
 /// Groups the options in the help of a command, and of its subcommands, if there are at least twelve.
 void group_options(CLI::App& command) {
@@ -73,6 +74,7 @@ void group_options(CLI::App& command) {
   const std::vector<CLI::Option*> options = command.get_options();
   if (options.size() < 12) return;
   for (CLI::Option* option : options) {
+    if (option->get_positional()) continue;
     const auto group = std::ranges::find_if(option_groups, [&](const OptionGroup& one) {
       return one.options.find(" --" + option->get_lnames().front() + " ") != std::string_view::npos;
     });

@@ -33,6 +33,10 @@ class Picture:
         view[..., 1] = self.side / 2 - view[..., 1]
         return view
 
+    def pixels(self, points):
+        """Where points are in the image: columns and rows."""
+        return self._to_pixels(points)[..., :2] / SUPERSAMPLING
+
     def _paint(self, x, y, z, shade):
         """Fragments at whole pixels; of several on one pixel the nearest shows."""
         inside = (x >= 0) & (x < self.side) & (y >= 0) & (y < self.side)

@@ -19,6 +19,7 @@ SHOWN = {
     "update.csv": ("Updates", ["detector", "options", "share", "status", "build_ms", "update_ms", "update_over_build",
                               "ns_per_query_updated", "ns_per_query_built"]),
     "many.csv": ("Many points", None),
+    "audit.csv": ("Audit", None),
     "bodies.csv": ("Growth with the number of bodies", ["detector", "options", "bodies", "motion", "place", "tick_ns", "tick_over_one",
                                                         "first_tick_ns", "first_tick_over_one", "tick_prepared_ns", "tick_prepared_over_one",
                                                         "first_tick_prepared_ns", "first_tick_prepared_over_one", "publish_ns_per_body", "bytes_per_body", "differing", "status"]),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
 #include "bench/cli/report_files.h"
+#include "bench/cli/reproducers.h"
 #include "bench/cli/run_frame.h"
 #include "bench/cli/selected_workload.h"
 #include "bench/cli/selector_options.h"
@@ -37,7 +40,7 @@ constexpr std::size_t failures_shown = 40;
 
 struct VerifyOptions {
   contestants::Selectors selectors;
-  std::string out;
+  std::string out, reproduce;
   ReportSelectors reports;
   WorkerSelectors workers;
 };
@@ -75,6 +78,10 @@ class VerifyRun {
         junit_(options.reports.junit),
         markdown_(options.reports.markdown) {
     workers_.calibrate_clock = false;
+    if (options.reproduce.empty()) return;
+    if (!options.selectors.scene.empty())
+      throw std::invalid_argument("--reproduce writes scripts about a mesh: name a --mesh, not a --scene");
+    reproducers_.emplace(options.reproduce, roster_, workers_);
   }
 
   int run();
@@ -89,6 +96,7 @@ class VerifyRun {
   workers::WorkerOptions workers_;
   RunFrame frame_;
   ReportFile junit_, markdown_;
+  std::optional<Reproducers> reproducers_;
   std::vector<measurement::ResultRow> rows_;
 };
 
@@ -114,6 +122,8 @@ void VerifyRun::verify_mesh(const std::string& mesh) {
     throw;
   }
   say_how_to_repeat();
+  frame_.progress.clear();
+  if (reproducers_) reproducers_->add(workload, std::span(rows_).subspan(before));
 }
 
 int VerifyRun::report() {
@@ -149,6 +159,10 @@ void add_verify(CLI::App& program, ProgramContext& context) {
   add_scene_selectors(*command, options->selectors);
   add_unit(*command, options->selectors.unit);
   add_value(*command, "--out", options->out, "DIR", "folder for results.csv");
+  add_value(
+      *command, "--reproduce", options->reproduce, "DIR",
+      "folder for scripts that show what plug-ins in Python or JavaScript answer wrongly: one a kind of "
+      "fault and mesh, which is cut to the triangles that still show it");
   add_junit(*command, options->reports);
   add_markdown(*command, options->reports);
   add_worker_selectors(*command, options->workers);

@@ -18,6 +18,7 @@ void add_gate(CLI::App& program, ProgramContext& context);
 void add_plan(CLI::App& program, ProgramContext& context);
 void add_run(CLI::App& program, ProgramContext& context);
 void add_merge(CLI::App& program, ProgramContext& context);
+void add_audit(CLI::App& program, ProgramContext& context);
 void add_validate(CLI::App& program, ProgramContext& context);
 
 /// Every command, those of the main program too.

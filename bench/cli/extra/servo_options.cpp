@@ -23,7 +23,6 @@
 
 namespace touchmark::bench::cli {
 
-namespace proxy = experiments::proxy;
 namespace servo = experiments::servo;
 
 namespace {

@@ -14,6 +14,7 @@
 
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/options.h"
+#include "bench/experiments/audit/audit_check.h"
 #include "bench/experiments/choose/choose_check.h"
 #include "bench/experiments/many/many_check.h"
 #include "bench/experiments/proxy/proxy_check.h"
@@ -112,13 +113,15 @@ struct KnownTable {
   std::string_view name;  ///< The file's, without .csv.
   void (*check)(const validation::CsvTable& table, const nlohmann::json* run, validation::Faults& faults);
 };
-constexpr std::array<KnownTable, 7> known_tables{
+constexpr std::array<KnownTable, 8> known_tables{
     {{"stress", stress::check_stress},
      {"servo", check_servo_csv},
      {"choose", choose::check_choose},
      {"suite", suite::check_suite},
      {"bodies",
       [](const auto& table, auto*, auto& faults) { experiments::scaling::check_bodies(table, faults); }},
+     {"audit",
+      [](const auto& table, auto*, auto& faults) { experiments::audit::check_audit(table, faults); }},
      {"many", [](const auto& table, auto*, auto& faults) { many::check_many(table, faults); }},
      {"proxy", proxy::check_proxy}}};
 
@@ -193,7 +196,8 @@ void add_validate(CLI::App& program, ProgramContext& context) {
   CLI::App* command = add_command(program, "validate");
   add_value(*command, "path", *paths, "FILE|DIR",
             "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, many.csv, bodies.csv, "
-            "run.json, steps.bin, visited.json, or folders that hold some; other CSV files are checked for "
+            "audit.csv, run.json, steps.bin, visited.json, or folders that hold some; other CSV files are "
+            "checked for "
             "their form")
       ->required();
   command->footer(

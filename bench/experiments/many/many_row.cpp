@@ -28,11 +28,11 @@ bool is_kind(std::string_view text) { return kind_named(text).has_value(); }
 bool is_order(std::string_view text) { return order_named(text).has_value(); }
 bool is_status(std::string_view text) { return text == "ok" || text == "wrong"; }
 
-using results::Presence, results::Kind, results::text, results::rounded;
+using results::Presence, results::text, results::rounded;
 using results::kinds::any_text, results::kinds::one, results::kinds::positive, results::kinds::positive_count,
     results::kinds::whole_number;
 constexpr Presence always = Presence::always, optional = Presence::optional;
-constexpr Kind kind{is_kind, "one of coherent, incoherent, pointshell, pointshell-close"},
+constexpr results::Kind kind{is_kind, "one of coherent, incoherent, pointshell, pointshell-close"},
     order{is_order, "one of automatic, as-given, curve"}, status{is_status, "one of ok, wrong"};
 
 // The order is the contract.
