@@ -120,7 +120,7 @@ class Packages(unittest.TestCase):
 
     def test_the_program_finds_its_workers_by_the_link_in_bin(self):
         out = self.folder / "out"
-        run(self.usr / "bin" / "touchmark", "bench", "--quick", "--mesh", "icosphere:1", "--trajectory", "slide",
+        run(self.usr / "bin" / "touchmark", "bench", "--quick", "--no-cold", "--mesh", "icosphere:1", "--trajectory", "slide",
             "--steps", "50", "--detector", "grid-group", "--detector", "bullet", "--out", out)
         run(self.usr / "bin" / "touchmark-plot", out, "--only", "errors")
         run(self.usr / "bin" / "touchmark-report", "--help")

@@ -3,7 +3,6 @@
 import csv
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -12,6 +11,7 @@ SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(SCRIPTS))
 
+import forked  # noqa: E402
 from drawing import detectors, layout, servo  # noqa: E402
 
 ROW = {
@@ -47,12 +47,12 @@ class Folders(unittest.TestCase):
         return folder
 
     def plot(self, *arguments):
-        done = subprocess.run([SCRIPTS / "plot", *arguments, "--out", self.out], capture_output=True, text=True, check=False)
+        done = forked.run(SCRIPTS / "plot", *arguments, "--out", self.out)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout
 
     def refusal(self, *arguments):
-        done = subprocess.run([SCRIPTS / "plot", *arguments, "--out", self.out], capture_output=True, text=True, check=False)
+        done = forked.run(SCRIPTS / "plot", *arguments, "--out", self.out)
         self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
         self.assertFalse(self.out.exists())
         return done.stderr

@@ -3,9 +3,12 @@
 import csv
 import filecmp
 import pathlib
-import subprocess
+import sys
 import tempfile
 import unittest
+
+sys.dont_write_bytecode = True
+import forked  # noqa: E402
 
 PLOT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "plot"
 COLUMNS = (
@@ -40,7 +43,7 @@ class Plot(unittest.TestCase):
             writer.writerows(rows)
 
     def plot(self, *arguments):
-        return subprocess.run([PLOT, *(arguments or [self.directory])], capture_output=True, text=True, check=False)
+        return forked.run(PLOT, *(arguments or [self.directory]))
 
     def pictures(self):
         return sorted(path.name for path in (self.directory / "plots").iterdir())
@@ -273,7 +276,7 @@ class Plot(unittest.TestCase):
 
     def test_refuses_wrong_arguments_in_one_line(self):
         for wrong in ([], ["a", "b"], ["--only", "latency,pie", "a"]):
-            done = subprocess.run([PLOT, *wrong], capture_output=True, text=True, check=False)
+            done = forked.run(PLOT, *wrong)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), (wrong, done.stderr))
 
 

@@ -243,7 +243,7 @@ class SavedTest(unittest.TestCase):
         cls.program = found[0]
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.temporary.name)
-        subprocess.run([cls.program, "bench", "--quick", "--mesh", "icosphere:3", "--trajectory", "slide", "--steps", "400",
+        subprocess.run([cls.program, "bench", "--quick", "--no-cold", "--mesh", "icosphere:3", "--trajectory", "slide", "--steps", "400",
                         "--detector", "grid-group", "--detector", "libccd+aabb", "--benchmark_min_time=0.001",
                         "--out", cls.folder], check=True, capture_output=True)
         subprocess.run([ROOT / "scripts" / "report", cls.folder], check=True, stdout=subprocess.DEVNULL)

@@ -65,7 +65,7 @@ class RunSchema(unittest.TestCase):
 
     def test_accepts_what_the_program_writes(self):
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([PROGRAM, "bench", "--mesh", "icosphere:0", "--quick", "--steps", "10", "--trajectory", "slide",
+            subprocess.run([PROGRAM, "bench", "--mesh", "icosphere:0", "--quick", "--no-cold", "--steps", "10", "--trajectory", "slide",
                             "--reach", "inf", "--detector", "brute-force", "--out", folder, "--benchmark_min_time=0.001"],
                            capture_output=True, check=True)
             run = json.loads((pathlib.Path(folder) / "run.json").read_text(encoding="utf-8"))
@@ -97,7 +97,7 @@ class VisitedSchema(unittest.TestCase):
         schema = json.loads((ROOT / "bench/results/schemas/visited.schema.json").read_text(encoding="utf-8"))
         jsonschema.Draft7Validator.check_schema(schema)
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([PROGRAM, "bench", "--mesh", "icosphere:1", "--quick", "--steps", "40", "--trajectory", "slide",
+            subprocess.run([PROGRAM, "bench", "--mesh", "icosphere:1", "--quick", "--no-cold", "--steps", "40", "--trajectory", "slide",
                             "--detector", "grid-group", "--detector", "brute-force", "--out", folder, "--benchmark_min_time=0.001"],
                            capture_output=True, check=True)
             self.assertFalse((pathlib.Path(folder) / "visited.json").exists())

@@ -46,7 +46,7 @@ TEST(NothingJudged, OfOneThatClaimsExactnessAndCrashesIsAFailure) {
   for (const std::string detector : {"aborts", "aborts-at-build", "exits"}) {
     const std::vector<std::string> on_cube{"--mesh",  "cube", "--trajectory", "slide",
                                            "--steps", "20",   "--detector",   detector};
-    std::vector<std::string> verify{"verify", "--query", "nearest"}, bench{"bench", "--quick"};
+    std::vector<std::string> verify{"verify", "--query", "nearest"}, bench{"bench", "--quick", "--no-cold"};
     verify.insert(verify.end(), on_cube.begin(), on_cube.end());
     bench.insert(bench.end(), on_cube.begin(), on_cube.end());
     const Outcome verified = run_hostile(verify), timed = run_hostile(bench);
@@ -170,8 +170,8 @@ TEST(Bench, AKilledWorkerIsAFailureOfOneThatClaimsExactness) {
   const TemporaryFolder folder;
   const std::string mark = folder.file("mark");
   ::setenv("TOUCHMARK_TEST_COUNTER", mark.c_str(), 1);
-  const ChildProgram child({hostile, "bench", "--mesh", "cube", "--steps", "20", "--quick", "--trajectory",
-                            "slide", "--detector", "stalls", "--timeout", "60"});
+  const ChildProgram child({hostile, "bench", "--mesh", "cube", "--steps", "20", "--quick", "--no-cold",
+                            "--trajectory", "slide", "--detector", "stalls", "--timeout", "60"});
   for (int i = 0; i < 1200 && content_of(mark).empty(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   const std::vector<int> workers = children_of(child.id());
@@ -211,7 +211,7 @@ TEST(WrongAnswers, AreToldWithTheCommandsThatRepeatThem) {
                    "nearest", "--detector", "lies"})
           .out,
       run_hostile({"bench", "--mesh", "icosphere:2", "--steps", "40", "--trajectory", "slide", "--quick",
-                   "--detector", "lies"})
+                   "--no-cold", "--detector", "lies"})
           .out,
       run_hostile({"verify", "--mesh", "icosphere:2", "--trajectory", motion_in_metres(), "--columns",
                    "x=a,y=b,z=c", "--motion-scale", "1000", "--query", "nearest", "--detector", "lies"})

@@ -100,9 +100,9 @@ TEST(Bench, LeavesOneRowAContestantAndTrajectoryAndARunJson) {
 TEST(Bench, WritesIntoARelativeFolder) {
   const TemporaryFolder folder;
   const std::string relative = std::filesystem::relative(folder.file("here")).string();
-  const Outcome finished =
-      run_touchmark({"bench", "--mesh", "icosphere:0", "--quick", "--steps", "10", "--trajectory", "slide",
-                     "--detector", "brute-force", "--out", relative, "--benchmark_min_time=0.001"});
+  const Outcome finished = run_touchmark({"bench", "--mesh", "icosphere:0", "--quick", "--no-cold", "--steps",
+                                          "10", "--trajectory", "slide", "--detector", "brute-force", "--out",
+                                          relative, "--benchmark_min_time=0.001"});
   EXPECT_EQ(finished.status, 0) << finished.err;
   EXPECT_TRUE(std::filesystem::exists(folder.file("here/results.csv")));
   EXPECT_TRUE(std::filesystem::exists(folder.file("here/run.json")));
@@ -111,9 +111,10 @@ TEST(Bench, WritesIntoARelativeFolder) {
 TEST(Bench, SameSeedSameAnswersAnotherSeedOthers) {
   const TemporaryFolder folder;
   const auto checksum = [&](const std::string& seed) {
-    const Outcome finished = run_touchmark(
-        {"bench", "--mesh", "icosphere:1", "--quick", "--steps", "50", "--seed", seed, "--trajectory",
-         "slide", "--detector", "aabb-tree", "--out", folder.path(), "--benchmark_min_time=0.001"});
+    const Outcome finished =
+        run_touchmark({"bench", "--mesh", "icosphere:1", "--quick", "--no-cold", "--steps", "50", "--seed",
+                       seed, "--trajectory", "slide", "--detector", "aabb-tree", "--out", folder.path(),
+                       "--benchmark_min_time=0.001"});
     EXPECT_EQ(finished.status, 0) << finished.err;
     const std::vector<std::string> csv = lines_of(content_of(folder.file("results.csv")));
     const std::vector<std::string> header = split_csv(csv.at(0));
@@ -128,9 +129,9 @@ TEST(Bench, SameSeedSameAnswersAnotherSeedOthers) {
 TEST(Bench, ClocksPreparingApart) {
   const TemporaryFolder folder;
   const Outcome finished =
-      run_touchmark({"bench", "--mesh", "icosphere:3", "--quick", "--steps", "1000", "--trajectory", "slide",
-                     "--detector", "sphere-cluster:prepare=true", "--detector", "sphere-cluster", "--out",
-                     folder.path(), "--benchmark_min_time=0.001"});
+      run_touchmark({"bench", "--mesh", "icosphere:3", "--quick", "--no-cold", "--steps", "1000",
+                     "--trajectory", "slide", "--detector", "sphere-cluster:prepare=true", "--detector",
+                     "sphere-cluster", "--out", folder.path(), "--benchmark_min_time=0.001"});
   EXPECT_EQ(finished.status, 0) << finished.err;
   EXPECT_EQ(run_touchmark({"validate", folder.path()}).status, 0);
   const std::vector<std::string> csv = lines_of(content_of(folder.file("results.csv")));
@@ -146,17 +147,9 @@ TEST(Bench, ClocksPreparingApart) {
 }
 
 TEST(Bench, ShowsWhatAStepLookedAtWhenAsked) {
-  const std::vector<std::string> command{"bench",
-                                         "--mesh",
-                                         "icosphere:0",
-                                         "--quick",
-                                         "--steps",
-                                         "10",
-                                         "--trajectory",
-                                         "slide",
-                                         "--detector",
-                                         "brute-force",
-                                         "--benchmark_min_time=0.001"};
+  const std::vector<std::string> command{
+      "bench", "--mesh",       "icosphere:0", "--quick",    "--no-cold",   "--steps",
+      "10",    "--trajectory", "slide",       "--detector", "brute-force", "--benchmark_min_time=0.001"};
   const Outcome without = run_touchmark(command);
   EXPECT_EQ(without.out.find("looked at"), std::string::npos) << without.out;
   std::vector<std::string> with = command;
@@ -180,9 +173,10 @@ TEST(Bench, ListsItsCasesAndFiltersThem) {
 TEST(Bench, ANaNFreeRowForEveryQuery) {
   for (const char* query : {"touches", "nearest", "sweep"}) {
     const TemporaryFolder folder;
-    const Outcome finished = run_touchmark(
-        {"bench", "--mesh", "cube", "--quick", "--steps", "50", "--query", query, "--trajectory", "tap",
-         "--detector", "grid-group", "--reach", "inf", "--out", folder.path(), "--benchmark_min_time=0.001"});
+    const Outcome finished =
+        run_touchmark({"bench", "--mesh", "cube", "--quick", "--no-cold", "--steps", "50", "--query", query,
+                       "--trajectory", "tap", "--detector", "grid-group", "--reach", "inf", "--out",
+                       folder.path(), "--benchmark_min_time=0.001"});
     EXPECT_EQ(finished.status, 0) << finished.err;
     const std::vector<std::string> csv = lines_of(content_of(folder.file("results.csv")));
     ASSERT_EQ(csv.size(), 2U);
@@ -241,9 +235,9 @@ TEST(Program, SaysWithoutACommandWhatItIsAndWhereToBegin) {
 TEST(Bench, AFullDiskIsStatus3AndLeavesNoHalfFile) {
   const TemporaryFolder folder;
   std::filesystem::create_symlink("/dev/full", folder.file("results.csv"));
-  const Outcome finished =
-      run_touchmark({"bench", "--mesh", "icosphere:0", "--quick", "--steps", "10", "--trajectory", "slide",
-                     "--detector", "brute-force", "--out", folder.path(), "--benchmark_min_time=0.001"});
+  const Outcome finished = run_touchmark({"bench", "--mesh", "icosphere:0", "--quick", "--no-cold", "--steps",
+                                          "10", "--trajectory", "slide", "--detector", "brute-force", "--out",
+                                          folder.path(), "--benchmark_min_time=0.001"});
   EXPECT_EQ(finished.status, 3);
   EXPECT_NE(finished.err.find("No space left"), std::string::npos) << finished.err;
   EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
@@ -305,7 +299,7 @@ TEST(Verify, ExitsWith1WhenAClaimIsBroken) {
 TEST(Bench, ExitsWith1AndSaysSoWhenTimedAnswersDiffer) {
   const Outcome finished =
       run_program_at({hostile, "bench", "--mesh", "cube", "--steps", "40", "--trajectory", "slide",
-                      "--detector", "fickle", "--detector", "honest", "--quick"});
+                      "--detector", "fickle", "--detector", "honest", "--quick", "--no-cold"});
   EXPECT_EQ(finished.status, 1);
   EXPECT_NE(finished.err.find("fickle on slide: timed answers differ from verified ones"), std::string::npos);
   EXPECT_NE(finished.out.find("fastest exact: honest"), std::string::npos);
@@ -314,9 +308,10 @@ TEST(Bench, ExitsWith1AndSaysSoWhenTimedAnswersDiffer) {
 /// The second trajectory hangs, so the first one's row is there when Ctrl-C comes.
 TEST(Bench, CtrlCKeepsTheFinishedRowsAndEndsTheWorkers) {
   const TemporaryFolder folder;
-  ChildProgram child({hostile, "bench", "--mesh", "icosphere:0", "--steps", "40", "--quick", "--trajectory",
-                      "slide", "--trajectory", "jump", "--detector", "honest", "--detector", "hangs",
-                      "--timeout", "4", "--out", folder.path()});
+  ChildProgram child({hostile,        "bench",     "--mesh",     "icosphere:0",  "--steps",
+                      "40",           "--quick",   "--no-cold",  "--trajectory", "slide",
+                      "--trajectory", "jump",      "--detector", "honest",       "--detector",
+                      "hangs",        "--timeout", "4",          "--out",        folder.path()});
   for (int i = 0; i < 600 && !std::filesystem::exists(folder.file("results.csv")); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }

@@ -43,11 +43,26 @@ class StepOutputs : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     const TemporaryFolder folder;
-    const Outcome finished =
-        run_touchmark({"bench", "--mesh", "icosphere:2", "--quick", "--steps", std::to_string(steps),
-                       "--trajectory", "approach", "--detector", "aabb-tree", "--detector",
-                       "sphere-cluster:precise=false", "--detector", "auto", "--out", folder.path(),
-                       "--steps-out", folder.file("steps.csv"), "--benchmark_min_time=0.001"});
+    const Outcome finished = run_touchmark({"bench",
+                                            "--mesh",
+                                            "icosphere:2",
+                                            "--quick",
+                                            "--no-cold",
+                                            "--steps",
+                                            std::to_string(steps),
+                                            "--trajectory",
+                                            "approach",
+                                            "--detector",
+                                            "aabb-tree",
+                                            "--detector",
+                                            "sphere-cluster:precise=false",
+                                            "--detector",
+                                            "auto",
+                                            "--out",
+                                            folder.path(),
+                                            "--steps-out",
+                                            folder.file("steps.csv"),
+                                            "--benchmark_min_time=0.001"});
     ASSERT_EQ(finished.status, 0) << finished.err;
     results() = content_of(folder.file("results.csv"));
     binary() = content_of(folder.file("steps.bin"));
@@ -134,18 +149,18 @@ TEST_F(StepOutputs, ValidateFindsStepsOfAnotherRun) {
 TEST_F(StepOutputs, ARunThatBeginsTakesAwayTheStepsOfTheOneBefore) {
   const TemporaryFolder folder;
   folder.file("steps.bin", "of an earlier run");
-  const Outcome outcome =
-      run_touchmark({"bench", "--mesh", "cube", "--quick", "--steps", "5", "--trajectory", "slide",
-                     "--detector", "aabb-tree", "--out", folder.path(), "--benchmark_min_time=0.001"});
+  const Outcome outcome = run_touchmark({"bench", "--mesh", "cube", "--quick", "--no-cold", "--steps", "5",
+                                         "--trajectory", "slide", "--detector", "aabb-tree", "--out",
+                                         folder.path(), "--benchmark_min_time=0.001"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(run_touchmark({"validate", folder.path()}).status, 0);
 }
 
 TEST_F(StepOutputs, AFullDiskIsToldOfAndNoFileIsLeft) {
   const TemporaryFolder folder;
-  const Outcome outcome =
-      run_touchmark({"bench", "--mesh", "cube", "--quick", "--steps", "5", "--trajectory", "slide",
-                     "--detector", "aabb-tree", "--steps-out", "/dev/full", "--benchmark_min_time=0.001"});
+  const Outcome outcome = run_touchmark({"bench", "--mesh", "cube", "--quick", "--no-cold", "--steps", "5",
+                                         "--trajectory", "slide", "--detector", "aabb-tree", "--steps-out",
+                                         "/dev/full", "--benchmark_min_time=0.001"});
   EXPECT_EQ(outcome.status, 3) << outcome.err;
   EXPECT_NE(outcome.err.find("cannot write /dev/full"), std::string::npos) << outcome.err;
 }

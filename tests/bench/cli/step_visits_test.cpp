@@ -104,9 +104,10 @@ class StepVisits : public testing::Test {
   static void SetUpTestSuite() {
     const TemporaryFolder folder;
     const std::string mesh = folder.file("sheet.obj", sheet()), path = folder.file("motion.csv", motion());
-    const Outcome finished = run_touchmark(
-        {"bench", "--mesh", mesh, "--trajectory", path, "--quick", "--detector", "aabb-tree", "--detector",
-         "grid-group", "--detector", "sphere-cluster", "--out", folder.path(), "--benchmark_min_time=0.001"});
+    const Outcome finished =
+        run_touchmark({"bench", "--mesh", mesh, "--trajectory", path, "--quick", "--no-cold", "--detector",
+                       "aabb-tree", "--detector", "grid-group", "--detector", "sphere-cluster", "--out",
+                       folder.path(), "--benchmark_min_time=0.001"});
     ASSERT_EQ(finished.status, 0) << finished.err;
     results() = content_of(folder.file("results.csv"));
     const std::size_t run_id = results().find("\n1,") + 3;
@@ -290,9 +291,9 @@ TEST(SweepVisits, HoldTheTriangleThatIsHitAndNoBoxOverItIsLeftOut) {
 TEST_F(StepVisits, OfAnEarlierRunAreTakenAway) {
   const TemporaryFolder folder;
   folder.file("visited.json", "of an earlier run");
-  const Outcome outcome =
-      run_touchmark({"bench", "--mesh", "cube", "--quick", "--steps", "5", "--trajectory", "slide",
-                     "--detector", "brute-force", "--out", folder.path(), "--benchmark_min_time=0.001"});
+  const Outcome outcome = run_touchmark({"bench", "--mesh", "cube", "--quick", "--no-cold", "--steps", "5",
+                                         "--trajectory", "slide", "--detector", "brute-force", "--out",
+                                         folder.path(), "--benchmark_min_time=0.001"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(folder.path() + "/visited.json"));
 }

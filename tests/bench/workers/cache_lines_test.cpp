@@ -39,9 +39,10 @@ TEST(CacheLines, WithoutCountsAreAnErrorThatNamesTheFile) {
 
 TEST(CacheLines, OfBruteForceAreThoseOfAllTriangles) {
   const TemporaryFolder folder;
-  const cli::Outcome finished = cli::run_touchmark(
-      {"bench", "--mesh", "icosphere:2", "--quick", "--steps", "200", "--trajectory", "jump", "--detector",
-       "brute-force", "--cache-lines", "--out", folder.file("out"), "--benchmark_repetitions=2"});
+  const cli::Outcome finished =
+      cli::run_touchmark({"bench", "--mesh", "icosphere:2", "--quick", "--no-cold", "--steps", "200",
+                          "--trajectory", "jump", "--detector", "brute-force", "--cache-lines", "--out",
+                          folder.file("out"), "--benchmark_repetitions=2"});
   ASSERT_EQ(finished.status, 0) << finished.err;
   std::smatch found;
   ASSERT_TRUE(std::regex_search(finished.out, found, std::regex("\nbrute-force +([0-9.]+) +([0-9.]+)\n")))
@@ -59,7 +60,7 @@ TEST(CacheLines, WithoutValgrindAreRefusedInOneLine) {
   const std::string before = path != nullptr ? path : "";
   setenv("PATH", "/nowhere", 1);
   const cli::Outcome refused =
-      cli::run_touchmark({"bench", "--mesh", "icosphere:1", "--quick", "--cache-lines"});
+      cli::run_touchmark({"bench", "--mesh", "icosphere:1", "--quick", "--no-cold", "--cache-lines"});
   setenv("PATH", before.c_str(), 1);
   EXPECT_EQ(refused.status, 3);
   EXPECT_EQ(refused.err, "touchmark: valgrind is missing, which counts cache lines: scripts/setup develop\n");
