@@ -126,11 +126,12 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
 }
 
 /// Returns what exhausted(candidates, unseen) does where boxes and triangles come to more than the budget;
-/// `unseen` bounds the distance of what was not looked at.
+/// `unseen` bounds the distance of what was not looked at. Always inline: a search without a budget has a
+/// loop of its own.
 template <class Exhausted>
-std::optional<Contact> AabbTree::search_nearest(const Vec3& center, double reach, Session& session,
-                                                std::uint64_t budget,
-                                                const Exhausted& exhausted) const noexcept {
+[[gnu::always_inline]] inline std::optional<Contact> AabbTree::search_nearest(
+    const Vec3& center, double reach, Session& session, std::uint64_t budget,
+    const Exhausted& exhausted) const noexcept {
   const double difference = largest_difference(bounds(), center);
   const double error = certified_ ? distance_error(difference) : 0, pad = culling_pad(difference);
   Work& work = session.work;
