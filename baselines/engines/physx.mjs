@@ -1,0 +1,55 @@
+import { contestant } from "./lib/engine.mjs";
+
+export const { name, summary, guarantee, build, reproduce } = contestant("physx", "PhysX: triangle mesh, PxGeometryQuery", {
+  async load() {
+    const { readFileSync } = await import("node:fs"), { createRequire } = await import("node:module"), { process } = globalThis;
+    const { default: PhysX } = await import("physx-js-webidl");
+    const wasmBinary = readFileSync(createRequire(import.meta.url).resolve("physx-js-webidl/physx-js-webidl.wasm"));
+    globalThis.window = globalThis; // the module runs in a browser alone, and looks for one as it starts
+    globalThis.process = undefined;
+    const loading = PhysX({ wasmBinary });
+    globalThis.process = process;
+    const P = await loading;
+    const allocator = new P.PxDefaultAllocator(), errors = new P.PxDefaultErrorCallback();
+    P.CreateFoundation(P.PHYSICS_VERSION, allocator, errors);
+    return P;
+  },
+  make(P, vertices, triangles, fair) {
+    const desc = new P.PxTriangleMeshDesc(), tolerances = new P.PxTolerancesScale();
+    if (fair) tolerances.length = vertices.reduce((most, x) => Math.max(most, Math.abs(x)), 0); // a typical length: 1 otherwise
+    const points = P._malloc(4 * vertices.length), corners = P._malloc(4 * triangles.length);
+    new Float32Array(P.HEAPU8.buffer, points, vertices.length).set(vertices);
+    new Uint32Array(P.HEAPU8.buffer, corners, triangles.length).set(triangles);
+    Object.assign(desc.points, { count: vertices.length / 3, stride: 12, data: points });
+    Object.assign(desc.triangles, { count: triangles.length / 3, stride: 12, data: corners });
+    const mesh = P.CreateTriangleMesh(new P.PxCookingParams(tolerances), desc), sides = new P.PxMeshGeometryFlags(fair ? P.PxMeshGeometryFlagEnum.eDOUBLE_SIDED : 0);
+    if (!mesh) throw new Error("the mesh cannot be cooked");
+    const geometry = new P.PxTriangleMeshGeometry(mesh, new P.PxMeshScale(1), sides);
+    const [here, place] = [0, 1].map(() => new P.PxTransform(P.PxIDENTITYEnum.PxIdentity));
+    return { mesh, geometry, here, place, point: new P.PxVec3(), way: new P.PxVec3() };
+  },
+  nearest(P, { geometry, here, point, way: closest }, center) {
+    [point.x, point.y, point.z] = center;
+    const square = P.PxGeometryQuery.prototype.pointDistance(point, geometry, here, closest);
+    return square < 0 ? null : { point: square > 0 ? [closest.x, closest.y, closest.z] : center };
+  },
+  touches(P, { geometry, here, place }, [x, y, z], radius) {
+    Object.assign(place.p, { x, y, z });
+    const ball = new P.PxSphereGeometry(radius);
+    const touching = P.PxGeometryQuery.prototype.overlap(ball, place, geometry, here);
+    P.destroy(ball);
+    return touching;
+  },
+  first_hit(P, { geometry, here, place, way }, [x, y, z], to, radius, fair) {
+    const step = [to[0] - x, to[1] - y, to[2] - z], length = Math.hypot(...step), F = P.PxHitFlagEnum;
+    Object.assign(place.p, { x, y, z });
+    [way.x, way.y, way.z] = length > 0 ? step.map((s) => s / length) : [1, 0, 0];
+    const ball = new P.PxSphereGeometry(radius), hit = new P.PxSweepHit();
+    const flags = new P.PxHitFlags(F.eDEFAULT | (fair ? F.eMESH_BOTH_SIDES | F.ePRECISE_SWEEP : 0));
+    const found = P.PxGeometryQuery.prototype.sweep(way, length, ball, place, geometry, here, hit, flags) && {
+      fraction: length > 0 ? hit.distance / length : 0, point: [hit.position.x, hit.position.y, hit.position.z] };
+    [ball, hit, flags].forEach((object) => P.destroy(object));
+    return found || null;
+  },
+  free: (P, { mesh }) => mesh.release(),
+});
