@@ -2,16 +2,14 @@ import { contestant } from "./lib/engine.mjs";
 
 export const { name, summary, guarantee, build, reproduce } = contestant("physx", "PhysX: triangle mesh, PxGeometryQuery", {
   async load() {
-    const { readFileSync } = await import("node:fs"), { createRequire } = await import("node:module"), { process } = globalThis;
-    const { default: PhysX } = await import("physx-js-webidl");
+    const { readFileSync } = await import("node:fs"), { createRequire } = await import("node:module");
+    const { default: PhysX } = await import("physx-js-webidl"), { process } = globalThis;
     const wasmBinary = readFileSync(createRequire(import.meta.url).resolve("physx-js-webidl/physx-js-webidl.wasm"));
-    globalThis.window = globalThis; // the module runs in a browser alone, and looks for one as it starts
-    globalThis.process = undefined;
+    Object.assign(globalThis, { window: globalThis, process: undefined }); // it starts in a browser alone
     const loading = PhysX({ wasmBinary });
     globalThis.process = process;
     const P = await loading;
-    const allocator = new P.PxDefaultAllocator(), errors = new P.PxDefaultErrorCallback();
-    P.CreateFoundation(P.PHYSICS_VERSION, allocator, errors);
+    P.CreateFoundation(P.PHYSICS_VERSION, new P.PxDefaultAllocator(), new P.PxDefaultErrorCallback());
     return P;
   },
   make(P, vertices, triangles, fair) {
@@ -22,11 +20,13 @@ export const { name, summary, guarantee, build, reproduce } = contestant("physx"
     new Uint32Array(P.HEAPU8.buffer, corners, triangles.length).set(triangles);
     Object.assign(desc.points, { count: vertices.length / 3, stride: 12, data: points });
     Object.assign(desc.triangles, { count: triangles.length / 3, stride: 12, data: corners });
-    const mesh = P.CreateTriangleMesh(new P.PxCookingParams(tolerances), desc), sides = new P.PxMeshGeometryFlags(fair ? P.PxMeshGeometryFlagEnum.eDOUBLE_SIDED : 0);
+    const mesh = P.CreateTriangleMesh(new P.PxCookingParams(tolerances), desc);
     if (!mesh) throw new Error("the mesh cannot be cooked");
+    const sides = new P.PxMeshGeometryFlags(fair ? P.PxMeshGeometryFlagEnum.eDOUBLE_SIDED : 0);
     const geometry = new P.PxTriangleMeshGeometry(mesh, new P.PxMeshScale(1), sides);
-    const [here, place] = [0, 1].map(() => new P.PxTransform(P.PxIDENTITYEnum.PxIdentity));
-    return { mesh, geometry, here, place, point: new P.PxVec3(), way: new P.PxVec3() };
+    const [here, place] = [0, 1].map(() => new P.PxTransform(P.PxIDENTITYEnum.PxIdentity)), F = P.PxHitFlagEnum;
+    const flags = new P.PxHitFlags(F.eDEFAULT | (fair ? F.eMESH_BOTH_SIDES | F.ePRECISE_SWEEP : 0));
+    return { mesh, geometry, here, place, flags, hit: new P.PxSweepHit(), point: new P.PxVec3(), way: new P.PxVec3() };
   },
   nearest(P, { geometry, here, point, way: closest }, center) {
     [point.x, point.y, point.z] = center;
@@ -40,16 +40,13 @@ export const { name, summary, guarantee, build, reproduce } = contestant("physx"
     P.destroy(ball);
     return touching;
   },
-  first_hit(P, { geometry, here, place, way }, [x, y, z], to, radius, fair) {
-    const step = [to[0] - x, to[1] - y, to[2] - z], length = Math.hypot(...step), F = P.PxHitFlagEnum;
+  first_hit(P, { geometry, here, place, flags, hit, way }, [x, y, z], to, radius) {
+    const step = [to[0] - x, to[1] - y, to[2] - z], length = Math.hypot(...step), ball = new P.PxSphereGeometry(radius);
     Object.assign(place.p, { x, y, z });
     [way.x, way.y, way.z] = length > 0 ? step.map((s) => s / length) : [1, 0, 0];
-    const ball = new P.PxSphereGeometry(radius), hit = new P.PxSweepHit();
-    const flags = new P.PxHitFlags(F.eDEFAULT | (fair ? F.eMESH_BOTH_SIDES | F.ePRECISE_SWEEP : 0));
-    const found = P.PxGeometryQuery.prototype.sweep(way, length, ball, place, geometry, here, hit, flags) && {
-      fraction: length > 0 ? hit.distance / length : 0, point: [hit.position.x, hit.position.y, hit.position.z] };
-    [ball, hit, flags].forEach((object) => P.destroy(object));
-    return found || null;
+    const hits = P.PxGeometryQuery.prototype.sweep(way, length, ball, place, geometry, here, hit, flags), at = hit.position;
+    P.destroy(ball);
+    return hits ? { fraction: length > 0 ? hit.distance / length : 0, point: [at.x, at.y, at.z] } : null;
   },
   free: (P, { mesh }) => mesh.release(),
 });

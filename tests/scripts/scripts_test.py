@@ -24,7 +24,7 @@ class Scripts(unittest.TestCase):
     def test_all_show_an_example(self):
         for name in ("setup", "build-program", "bench", "test", "dev", "plot", "papers", "plot-papers",
                      "regress", "record", "sweep-slurm", "check_layers", "docs",
-                     "check_comments", "check_sizes", "debian13", "history", "report", "packaging/debian",
+                     "check_comments", "check_sizes", "debian13", "engines", "history", "report", "packaging/debian",
                      "packaging/tarball", "packaging/wheel", "packaging/version"):
             done = run(SCRIPTS / name, "--help")
             self.assertEqual(done.returncode, 0, name)
@@ -33,7 +33,7 @@ class Scripts(unittest.TestCase):
     def test_refuse_what_they_do_not_know(self):
         for name in ("setup", "build-program", "dev", "plot", "papers", "plot-papers", "regress",
                      "record", "sweep-slurm", "check_layers", "docs", "check_comments",
-                     "check_sizes", "debian13", "history", "report", "packaging/debian",
+                     "check_sizes", "debian13", "engines", "history", "report", "packaging/debian",
                      "packaging/tarball", "packaging/wheel", "packaging/version"):
             self.assertEqual(run(SCRIPTS / name, "--no-such-thing", "x").returncode, 2, name)
 

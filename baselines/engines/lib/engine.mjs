@@ -63,10 +63,9 @@ export function contestant(name, summary, engine) {
 const load = ${method(engine.load)};
 const make = ${method(engine.make)};
 const ask = ${method(engine[query.query])};
-const E = await load(), fair = ${fair};
-const vertices = new Float64Array([${placed(frame, vertices).join(", ")}]);
-const triangles = new Uint32Array([${triangles.join(", ")}]);
-console.log(ask(E, make(E, vertices, triangles, fair), ${asked}, fair));
+const E = await load(), fair = ${fair}, vertices = new Float64Array([${placed(frame, vertices).join(", ")}]);
+const made = make(E, vertices, new Uint32Array([${triangles.join(", ")}]), fair);
+console.log(ask(E, made, ${asked}, fair));
 `;
     },
   };
