@@ -13,14 +13,13 @@ export const { name, summary, guarantee, build, reproduce } = contestant("physx"
     return P;
   },
   make(P, vertices, triangles, fair) {
-    const desc = new P.PxTriangleMeshDesc(), tolerances = new P.PxTolerancesScale();
-    if (fair) tolerances.length = vertices.reduce((most, x) => Math.max(most, Math.abs(x)), 0); // a typical length: 1 otherwise
+    const desc = new P.PxTriangleMeshDesc(), cooking = new P.PxCookingParams(new P.PxTolerancesScale());
     const points = P._malloc(4 * vertices.length), corners = P._malloc(4 * triangles.length);
     new Float32Array(P.HEAPU8.buffer, points, vertices.length).set(vertices);
     new Uint32Array(P.HEAPU8.buffer, corners, triangles.length).set(triangles);
     Object.assign(desc.points, { count: vertices.length / 3, stride: 12, data: points });
     Object.assign(desc.triangles, { count: triangles.length / 3, stride: 12, data: corners });
-    const mesh = P.CreateTriangleMesh(new P.PxCookingParams(tolerances), desc);
+    const mesh = P.CreateTriangleMesh(cooking, desc);
     if (!mesh) throw new Error("the mesh cannot be cooked");
     const sides = new P.PxMeshGeometryFlags(fair ? P.PxMeshGeometryFlagEnum.eDOUBLE_SIDED : 0);
     const geometry = new P.PxTriangleMeshGeometry(mesh, new P.PxMeshScale(1), sides);
