@@ -13,7 +13,7 @@ DOCS = ROOT / "scripts" / "docs"
 
 def pages():
     return sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "results").glob("*.md"),
-                   *(ROOT / "baselines").rglob("*.md")])
+                   *ROOT.glob("baselines/*.md"), *ROOT.glob("baselines/*/*.md")])
 
 
 def prose(page):
