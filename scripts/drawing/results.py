@@ -11,7 +11,7 @@ NUMBER_COLUMNS = ["triangles", "steps", "radius", "missed", "false_contacts", "w
 OPTIONAL_NUMBERS = ["ns_per_query", "max_distance_error_of_diagonal", "build_ms", "first_answer_ms", "bytes", "stored_missed",
                     "stored_false_contacts", "stored_max_distance_error_of_diagonal", "clock_cost_ns", "ns_undisturbed",
                     "disturbed_share", "beyond_tolerance", "rounding", "cold_l2_ns_p50", "cold_ns_p50", "cold_ns_p99",
-                    "bracket_max"]
+                    "bracket_p50", "bracket_max"]
 MAY_BE_INFINITE = ["radius", "max_distance_error", "max_distance_error_of_diagonal",
                    "stored_max_distance_error_of_diagonal"]
 DONE = "ok"

@@ -26,6 +26,7 @@ class Error:
 
 
 def draw_time_error(plt, rows, source):
+    rows = [row for row in rows if ":budget=" not in row.name]  # budgets.py draws them
     trajectories = trajectories_of(rows)
     by_name = {name: [row for row in rows if row.name == name and row.done] for name in
                detectors.in_order(row.name for row in rows)}
@@ -90,7 +91,7 @@ def room_for_legend(names):
 
 
 def kinds_of_error(rows, by_name, complete):
-    contacts, distances, stored_contacts, stored_distances, brackets = {}, {}, {}, {}, {}
+    contacts, distances, stored_contacts, stored_distances = {}, {}, {}, {}
     relative = all(math.isfinite(row.max_distance_error_of_diagonal) for row in rows
                    if row.done and math.isfinite(row.max_distance_error))
     column = "max_distance_error_of_diagonal" if relative else "max_distance_error"
@@ -101,7 +102,6 @@ def kinds_of_error(rows, by_name, complete):
         distances[name] = max(finite(getattr(row, column) for row in mine), default=math.nan)
         judged = finite(row.stored_missed + row.stored_false_contacts for row in mine)
         stored_contacts[name] = sum(judged) / steps if judged and steps else math.nan
-        brackets[name] = max(finite(row.bracket_max for row in mine), default=0)
         if relative:
             stored_distances[name] = max(finite(row.stored_max_distance_error_of_diagonal for row in mine), default=math.nan)
     yield Error("Missed and false contacts, share of the steps (log scale)", "no contact was missed or falsely told",
@@ -109,9 +109,6 @@ def kinds_of_error(rows, by_name, complete):
     unit = "share of the box's diagonal" if relative else "mesh units"
     yield Error(f"Largest distance error, {unit} (log scale)", "distances differ by rounding at most", distances,
                 ROUNDING if relative else 0, scientific, stored=stored_distances)
-    if any(brackets.values()):
-        yield Error("Widest bracket of the distance, of the diagonal (log scale)", "no answer is left open",
-                    brackets, 0, scientific)
 
 
 def scientific(size):

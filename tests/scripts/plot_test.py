@@ -118,6 +118,21 @@ class Plot(unittest.TestCase):
         for text in ("Missed and false contacts", "Without such errors", "grid-group", "embree", "fcl"):
             self.assertEqual(picture.count(f"<!-- {text}"), 1, text)  # in the legend or beside its row, not in both
 
+    def test_draws_brackets_by_budget_and_keeps_them_from_time_against_error(self):
+        brackets = ["bracket_p50", "bracket_max"]
+        COLUMNS.extend(brackets)
+        self.addCleanup(lambda: [COLUMNS.remove(column) for column in brackets])
+        bounded = {**GOOD, "guarantee": "conservative", "max_distance_error": 0.4}
+        self.write(GOOD, {**bounded, "options": "budget=64", "bracket_p50": 1e-3, "bracket_max": 0.4},
+                   {**bounded, "options": "budget=256", "bracket_p50": 0, "bracket_max": 2e-3})
+        done = self.plot()
+        self.assertIn("time_error: left out: nobody errs", done.stdout)
+        picture = (self.directory / "plots" / "budgets.svg").read_text(encoding="utf-8")
+        for text in ("<!-- 64 -->", "<!-- 256 -->", "<!-- exact -->", "<!-- widest bracket, of the diagonal -->"):
+            self.assertEqual(picture.count(text), 1, text)
+        self.write(GOOD)
+        self.assertNotIn("budgets", self.plot().stdout)
+
     def test_draws_the_clocks_own_cost_where_it_is_known(self):
         self.write(GOOD)
         self.plot(self.directory, "--only", "latency")

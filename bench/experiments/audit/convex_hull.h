@@ -8,7 +8,7 @@
 
 namespace touchmark::bench::experiments::audit {
 
-/// Quickhull (Barber, Dobkin & Huhdanpaa 1996). Empty where all points lie within the error of a plane.
+/// By Qhull (Barber, Dobkin & Huhdanpaa 1996). Empty where all points lie in a plane.
 class ConvexHull {
  public:
   /// No point is farther than `error`, which is above 0, outside, and the hull lies as closely within that of
@@ -23,7 +23,7 @@ class ConvexHull {
  private:
   struct Plane {
     Vec3 normal;  ///< unit, outward
-    Vec3 on_it;
+    double offset;
   };
   std::vector<Plane> planes_;
 };
