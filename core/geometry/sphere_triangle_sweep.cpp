@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/exact/distance_predicates.h"
+#include "core/exact/orientation.h"
 #include "core/geometry/path_gap.h"
 
 namespace touchmark {
@@ -40,6 +41,19 @@ class FirstTouch {
   bool stays_above(double above, const Reached& reached, double end) const noexcept {
     return reached.here.gap - reached.here.error - above >
            gap_.steepest_fall(reached.here) * (end - reached.fraction);
+  }
+  /// A point meets the triangle's plane nowhere if both ends are strictly on one side of it, and at one end
+  /// alone if that is the one on it. This tells one that slides along a face apart for a small part of what
+  /// distances cost.
+  bool keeps_off_plane(const PathGap::Sample& start) const noexcept {
+    if (sweep_.radius > 0) return false;
+    const auto& [a, b, c] = triangle_.corner;
+    const int first = side_of_plane(a, b, c, sweep_.from), last = side_of_plane(a, b, c, sweep_.to);
+    if (first == 0 && last == 0) return false;
+    if (first == 0) return start.gap > start.error;
+    if (last != 0) return first == last;
+    const PathGap::Sample end = gap_.at(1);
+    return end.gap > end.error;
   }
   bool stays_apart(const Reached& reached) const noexcept {
     return !reached.here.over_face && gap_.stays_apart(reached.fraction, reached.here, 1);
@@ -126,6 +140,7 @@ std::optional<double> FirstTouch::find(double limit) noexcept {
   constexpr int max_steps = 64;
   if (!gap_.is_defined()) return std::nullopt;
   Reached reached{0, gap_.at(0)};
+  if (!stays_above(0, reached, 1) && keeps_off_plane(reached.here)) return std::nullopt;
   if (reached.here.gap <= reached.here.error && touches_at_start(reached.here)) return 0;
   for (int step = 0; step < max_steps; ++step) {
     if (reached.here.surely_rises() || stays_above(0, reached, 1) || stays_apart(reached))

@@ -118,6 +118,28 @@ TEST(SphereTriangleSweep, AlongANeedleTheTouchIsNotToldTooLate) {
   EXPECT_LE(distance, sweep.radius + tolerance);
 }
 
+/// Of 900 triangles in the plane of a cap each took an exact decision of whole numbers.
+TEST(SphereTriangleSweep, ABarePointThatSlidesOverAPlaneMeetsItsEndAloneAndTakesFewExactDecisions) {
+  std::mt19937_64 random(3);
+  const auto whole = [&] { return static_cast<double>(random() % 33) / 4 - 2; };  // -2 to 6 by quarters
+  std::uint64_t decisions = 0, hits = 0, on_the_border = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double height = std::ldexp(random() % 2 == 0 ? 1 : -1, -50 + static_cast<int>(random() % 8));
+    const Vec3 from(whole(), whole(), height), on_it(whole(), whole(), 0), above(on_it.x(), on_it.y(), height / 3);
+    EXPECT_FALSE(sweep_hit(triangle, {from, above, 0}, 1, decisions)) << i;
+    EXPECT_FALSE(sweep_hit(triangle, {above, from, 0}, 1, decisions)) << i;
+    const bool inside = on_it.x() >= 0 && on_it.y() >= 0 && on_it.x() + on_it.y() <= 4;
+    on_the_border += inside && (on_it.x() == 0 || on_it.y() == 0 || on_it.x() + on_it.y() == 4) ? 1 : 0;
+    hits += inside ? 1 : 0;
+    EXPECT_EQ(sweep_hit(triangle, {from, on_it, 0}, 1, decisions).has_value(), inside) << i;
+    const auto leaves = sweep_hit(triangle, {on_it, from, 0}, 1, decisions);
+    EXPECT_EQ(leaves.has_value(), inside) << i;
+    EXPECT_TRUE(!leaves || *leaves == 0) << i;
+  }
+  EXPECT_GT(on_the_border, 100U);
+  EXPECT_LE(decisions, 4 * hits);
+}
+
 TEST(SphereTriangleSweep, NotANumberHitsNothing) {
   const double nan = std::nan("");
   EXPECT_FALSE(sweep_hit(triangle, {{nan, 0, 0}, {1, 1, 1}, 1}, 1));
