@@ -23,9 +23,9 @@ btDbvtVolume volume_of(const Aabb& box) {
 }
 
 template <class Visit>
-class Visitor final : public btDbvt::ICollide {
+class BodyVisitor final : public btDbvt::ICollide {
  public:
-  explicit Visitor(const Visit& visit) : visit_(visit) {}
+  explicit BodyVisitor(const Visit& visit) : visit_(visit) {}
   void Process(const btDbvtNode* leaf) override { visit_(static_cast<std::uint32_t>(leaf->dataAsInt)); }
 
  private:
@@ -55,7 +55,7 @@ struct BulletScene::World {
   /// Calls visit(body) for every body whose box meets the region.
   template <class Visit>
   void near(const Aabb& region, btNodeStack& stack, const Visit& visit) const {
-    Visitor<Visit> visitor(visit);
+    BodyVisitor<Visit> visitor(visit);
     tree.collideTVNoStackAlloc(tree.m_root, volume_of(region), stack, visitor);
   }
 

@@ -17,7 +17,7 @@ using Volume = fcl::OBBRSSd;
 /// What FCL's default request has: the error of the time of contact.
 constexpr double default_error = 1e-4;
 
-fcl::Transform3d at(const Vec3& center) {
+fcl::Transform3d moved_to(const Vec3& center) {
   fcl::Transform3d pose = fcl::Transform3d::Identity();
   pose.translation() = center;
   return pose;
@@ -46,7 +46,7 @@ struct FclCcd::Model {
     fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), true);
     fcl::CollisionResultd result;
     const fcl::Transform3d fixed = fcl::Transform3d::Identity();
-    fcl::collide(mesh.get(), fixed, &ball, at(center), request, result);
+    fcl::collide(mesh.get(), fixed, &ball, moved_to(center), request, result);
     work.triangles += result.numContacts();
     const fcl::Contactd* deepest = nullptr;
     for (std::size_t i = 0; i < result.numContacts(); ++i) {
@@ -86,8 +86,8 @@ std::optional<Impact> FclCcd::first_hit(const Sweep& sweep, Session& session) co
                                                  fcl::CCDC_NAIVE);
   fcl::ContinuousCollisionResultd result;
   const fcl::Transform3d fixed = fcl::Transform3d::Identity();
-  fcl::continuousCollide(model_->mesh.get(), fixed, fixed, &ball, at(sweep.from), at(sweep.to), request,
-                         result);
+  fcl::continuousCollide(model_->mesh.get(), fixed, fixed, &ball, moved_to(sweep.from), moved_to(sweep.to),
+                         request, result);
   if (!result.is_collide) return std::nullopt;
   const double step = 1 / static_cast<double>(samples - 1), time = result.time_of_contact;
   const std::optional<Contact> contact =

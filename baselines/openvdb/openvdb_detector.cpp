@@ -19,6 +19,10 @@
 #include "core/triangle_ids.h"
 #include "core/triangle_mesh.h"
 
+// The library holds these two compiled.
+extern template class openvdb::tree::Tree<openvdb::Int32Tree::RootNodeType>;
+extern template class openvdb::Grid<openvdb::Int32Tree>;
+
 namespace touchmark::baselines {
 namespace {
 

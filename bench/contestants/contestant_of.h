@@ -142,15 +142,13 @@ class ContestantOf final : public Contestant {
   void answer(const workload::QueryTrace& trace, workload::StepRange range,
               std::span<workload::Answer> answers, std::span<std::uint64_t> work) noexcept override {
     assert(answers.size() == range.size() && work.size() == range.size());
-    with_query(trace.query, [&](auto ask) {
-      for (std::size_t i = 0; i < range.size(); ++i) {
-        stand_at(trace, range.begin + i);
-        const std::uint64_t before = session_->work.total();
-        answers[i] = ask(trace.steps, range.begin + i);
-        prepare();
-        work[i] = session_->work.total() - before;
-      }
-    });
+    for (std::size_t i = 0; i < range.size(); ++i) {
+      stand_at(trace, range.begin + i);
+      const std::uint64_t before = session_->work.total();
+      with_query(trace.query, [&](auto ask) { answers[i] = ask(trace.steps, range.begin + i); });
+      prepare();
+      work[i] = session_->work.total() - before;
+    }
   }
 
   void replay(const workload::QueryTrace& trace, workload::StepRange range,
@@ -194,24 +192,23 @@ class ContestantOf final : public Contestant {
   }
 
   void replay_paced(const workload::QueryTrace& trace, StepPacer& pacer) noexcept override {
-    with_query(trace.query, [&](auto ask) {
-      // Kept here: to look at the session's counters before a query would fetch them for it.
-      Work seen = session_->work;
-      while (const std::optional<std::size_t> step = pacer.next()) {
-        prepare();
-        if constexpr (prefetch == Prefetch::on) seen = session_->work;
-        stand_at(trace, *step);
-        // A device's position has just been read: no query waits for it.
-        const std::array<workload::Step, 2> from_to{trace.steps[*step > 0 ? *step - 1 : 0],
-                                                    trace.steps[*step]};
+    // Kept here: to look at the session's counters before a query would fetch them for it.
+    Work seen = session_->work;
+    while (const std::optional<std::size_t> step = pacer.next()) {
+      prepare();
+      if constexpr (prefetch == Prefetch::on) seen = session_->work;
+      stand_at(trace, *step);
+      // A device's position has just been read: no query waits for it.
+      const std::array<workload::Step, 2> from_to{trace.steps[*step > 0 ? *step - 1 : 0], trace.steps[*step]};
+      with_query(trace.query, [&](auto ask) {
         std::atomic_signal_fence(std::memory_order_seq_cst);  // read, and not later
         const std::uint64_t before = TickClock::now();
         const workload::Answer answer = ask(from_to, 1);
         const std::uint64_t after = TickClock::now();
         pacer.took(after - before, answer, work_between(seen, session_->work));
-        seen = session_->work;
-      }
-    });
+      });
+      seen = session_->work;
+    }
   }
 
   void nearest_many([[maybe_unused]] std::span<const Vec3> points, [[maybe_unused]] double reach,
