@@ -142,6 +142,7 @@ class ContestantOf final : public Contestant {
   void answer(const workload::QueryTrace& trace, workload::StepRange range,
               std::span<workload::Answer> answers, std::span<std::uint64_t> work) noexcept override {
     assert(answers.size() == range.size() && work.size() == range.size());
+    begin_pass();
     for (std::size_t i = 0; i < range.size(); ++i) {
       stand_at(trace, range.begin + i);
       const std::uint64_t before = session_->work.total();
@@ -153,6 +154,7 @@ class ContestantOf final : public Contestant {
 
   void replay(const workload::QueryTrace& trace, workload::StepRange range,
               workload::Checksum& checksum) noexcept override {
+    begin_pass();
     with_query(trace.query, [&](auto ask) {
       workload::Checksum sum = checksum;
       for (std::size_t i = range.begin; i < range.end; ++i) {
@@ -169,6 +171,7 @@ class ContestantOf final : public Contestant {
                       std::span<std::uint64_t> prepare_ticks) noexcept override {
     assert(ticks.size() == range.size());
     assert(prefetch == Prefetch::off || prepare_ticks.size() == range.size());
+    begin_pass();
     with_query(trace.query, [&](auto ask) {
       workload::Checksum sum = checksum;
       std::uint64_t before = TickClock::now();
@@ -232,6 +235,10 @@ class ContestantOf final : public Contestant {
       session_.emplace();
     }
   }
+  /// What a budget leaves open depends on what the session remembers: all passes begin with nothing.
+  void begin_pass() noexcept {
+    if constexpr (tells_brackets) begin_session();
+  }
   static workload::Answer about_body(workload::Answer answer,
                                      [[maybe_unused]] const typename D::Session& session) noexcept {
     if constexpr (StandsInSchedules<D>) answer.body = answer.found != 0 ? session.body : 0;
@@ -256,7 +263,7 @@ class ContestantOf final : public Contestant {
     if constexpr (AnswersNearest<D>) {
       if (query == workload::Query::nearest) {
         return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
-          if constexpr (requires { detector.bracket(steps[i].probe, steps[i].reach, session); }) {
+          if constexpr (tells_brackets) {
             const Bracket bracket = detector.bracket(steps[i].probe, steps[i].reach, session);
             if (!bracket.contact) return workload::Answer{};
             workload::Answer answer =
@@ -286,6 +293,9 @@ class ContestantOf final : public Contestant {
   std::shared_ptr<D> detector_;
   /// Those of nearest_many, if it was asked and the detector answers that.
   std::unique_ptr<typename SessionsOfMany<D>::Type> many_;
+  static constexpr bool tells_brackets = requires(const D& detector, typename D::Session& session) {
+    detector.bracket(Probe(), 0.0, session);
+  };
   std::optional<typename D::Session> session_;  // engaged always; optional so that any session can be renewed
 };
 
