@@ -100,15 +100,16 @@ class MovingSweep {
 
 template <BodyDetector D>
 std::optional<BodyImpact> Scene<D>::first_hit_moving(const Sweep& sweep, std::span<const MovingBody> moving,
-                                                     Session& session, const TickPart& part)
-    const noexcept requires AnswersSweep<D> {
+                                                     Session& session, const TickPart& part,
+                                                     const MovingBody* left_out) const
+    noexcept requires AnswersSweep<D> {
   if (!(sweep.radius >= 0) || !sweep.from.allFinite() || !sweep.to.allFinite()) return std::nullopt;
   const auto moves = [&](std::uint32_t body) {
     return std::ranges::any_of(moving, [&](const MovingBody& m) { return m.body() == bodies_.id(body); });
   };
   FirstImpact first = first_of_standing(sweep, moves, session);
   for (const MovingBody& body : moving) {
-    if (!bodies_.has(body.body())) continue;
+    if (&body == left_out || !bodies_.has(body.body())) continue;
     const std::uint32_t index = body.body().index;
     const PlacedBody& placed = bodies_[index];
     const MovingSweep<D> swept(body, bodies_.bounds_of(placed), sweep, part);

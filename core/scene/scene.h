@@ -45,6 +45,7 @@ template <BodyDetector D>
 class Scene {
  public:
   using Options = typename D::Options;
+  using Moving = MovingBody;
   static constexpr bool keeps_to_limit = KeepsToLimit<D>;
   /// What one haptic point remembers between ticks.
   struct Session {
@@ -150,9 +151,10 @@ class Scene {
                                            Session& session) const noexcept requires AnswersSweep<D>;
   /// The first touch on a way that takes `part` of a tick in which these bodies move, wherever the scene has
   /// them, and all others stand. Never late; early by a bound of the distance there (E33), and 0 where the
-  /// probe may touch at the start.
+  /// probe may touch at the start. `left_out`, one of them, is not looked at.
   std::optional<BodyImpact> first_hit_moving(const Sweep& sweep, std::span<const MovingBody> moving,
-                                             Session& session, const TickPart& part = TickPart()) const
+                                             Session& session, const TickPart& part = TickPart(),
+                                             const MovingBody* left_out = nullptr) const
       noexcept requires AnswersSweep<D>;
 
   /// One contact for each triangle of a body whose distance is at most the reach, which is decided exactly;
