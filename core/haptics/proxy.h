@@ -46,7 +46,9 @@ concept GuidesProxy = requires(const D& detector, const Probe& probe, const Swee
 
 /// A detector of bodies that can say what they meet while they move, as a scene can.
 template <class D>
-concept SeesMotion = requires { typename D::Moving; };
+concept SeesMotion = requires {
+  typename D::Session::Moving;
+};
 /// What a proxy over D is told of a body that has moved.
 template <class D>
 struct MovingOf {
@@ -54,7 +56,7 @@ struct MovingOf {
 };
 template <SeesMotion D>
 struct MovingOf<D> {
-  using Type = typename D::Moving;
+  using Type = typename D::Session::Moving;
 };
 
 /// One proxy over one detector, which must outlive it. Steps take no memory, and each asks a bounded number
@@ -258,9 +260,9 @@ class Proxy {
 
   const D* detector_;
   ProxyMotion motion_;
-  LimitedWork* work_ = nullptr;  ///< This step's, where it is limited.
+  LimitedWork* work_ = nullptr;                         ///< This step's, where it is limited.
   std::span<const typename MovingOf<D>::Type> moving_;  ///< what the next step has to follow
-  int known_eighths_ = 8;  ///< of the radius were free before the surface moved
+  int known_eighths_ = 8;  ///< how many eighths of the radius were free before that
 };
 
 }  // namespace touchmark

@@ -14,7 +14,7 @@
 #include "core/scene/body.h"
 #include "core/scene/body_query.h"
 #include "core/scene/body_sweep.h"
-#include "core/scene/moving_body.h"
+#include "core/scene/moving/moving_body.h"
 #include "core/scene/near_bodies.h"
 #include "core/scene/near_surface.h"
 #include "core/scene/pose.h"
@@ -45,10 +45,10 @@ template <BodyDetector D>
 class Scene {
  public:
   using Options = typename D::Options;
-  using Moving = MovingBody;
   static constexpr bool keeps_to_limit = KeepsToLimit<D>;
   /// What one haptic point remembers between ticks.
   struct Session {
+    using Moving = MovingBody;  ///< what first_hit_moving is told of a body
     LimitedWork work;
     NearBodies near;
     NearSurface surface;
@@ -154,8 +154,8 @@ class Scene {
   /// probe may touch at the start. `left_out`, one of them, is not looked at.
   std::optional<BodyImpact> first_hit_moving(const Sweep& sweep, std::span<const MovingBody> moving,
                                              Session& session, const TickPart& part = TickPart(),
-                                             const MovingBody* left_out = nullptr) const
-      noexcept requires AnswersSweep<D>;
+                                             const MovingBody* left_out = nullptr) const noexcept requires
+      AnswersSweep<D>;
 
   /// One contact for each triangle of a body whose distance is at most the reach, which is decided exactly;
   /// by the distances told, then the lowest body, then the lowest triangle. Writes the first of them into
@@ -236,8 +236,7 @@ class Scene {
     std::uint32_t body = 0;
 
     void take(const Impact& hit, std::uint32_t whose) noexcept {
-      if (impact &&
-          (hit.fraction > impact->fraction || (hit.fraction == impact->fraction && whose > body)))
+      if (impact && (hit.fraction > impact->fraction || (hit.fraction == impact->fraction && whose > body)))
         return;
       impact = hit;
       body = whose;
@@ -273,6 +272,6 @@ class Scene {
 
 }  // namespace touchmark
 
-#include "core/scene/moving_sweep.h"     // IWYU pragma: export
-#include "core/scene/scene_queries.h"    // IWYU pragma: export
-#include "core/scene/surface_queries.h"  // IWYU pragma: export
+#include "core/scene/moving/moving_sweep.h"  // IWYU pragma: export
+#include "core/scene/scene_queries.h"        // IWYU pragma: export
+#include "core/scene/surface_queries.h"      // IWYU pragma: export

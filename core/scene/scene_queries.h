@@ -149,11 +149,13 @@ std::optional<BodyContact> Scene<D>::nearest_body(const Probe& probe, double rea
 
 template <BodyDetector D>
 template <class LeftOut>
-typename Scene<D>::FirstImpact Scene<D>::first_of_standing(
-    const Sweep& sweep, const LeftOut& is_left_out, Session& session) const noexcept requires AnswersSweep<D> {
+typename Scene<D>::FirstImpact Scene<D>::first_of_standing(const Sweep& sweep, const LeftOut& is_left_out,
+                                                           Session& session) const noexcept requires
+    AnswersSweep<D> {
   FirstImpact first;
   const double limit = sweep.radius;
-  if (session.near.all_are_beyond(sweep.from, limit + path_length(sweep.from, sweep.to), bodies_)) return first;
+  if (session.near.all_are_beyond(sweep.from, limit + path_length(sweep.from, sweep.to), bodies_))
+    return first;
   session.last = {
       {LastQuestion::Query::sweep, limit}, sweep.to, sweep.to - sweep.from, SceneState::of(bodies_)};
   ask_near(

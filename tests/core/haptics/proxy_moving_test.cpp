@@ -71,7 +71,8 @@ class World {
         const Real time = begin + (end - begin) * k / samples;
         look(screw(at_rest, time), time);
       }
-      EXPECT_NEAR(static_cast<double>((screw(at_rest, end) - state.way[i + 1].cast<Real>()).norm()), 0, 1e-12);
+      EXPECT_NEAR(static_cast<double>((screw(at_rest, end) - state.way[i + 1].cast<Real>()).norm()), 0,
+                  1e-12);
       EXPECT_EQ(carry.end, i + 1 < state.carried ? state.carries[i + 1].begin : 1);
     }
     // The rest is among bodies that stand.
@@ -175,27 +176,23 @@ TEST(MovedProxy, IsMetByBodiesThatPassItsPlaceInOneTick) {
   }
 }
 
+// Of two that close on it until nothing is left between them no side is right, so one moves at a time.
 TEST(MovedProxy, IsNeverOnTheOtherSideOfWhatMovesAtRandom) {
   Random random(11);
   for (int run = 0; run < 20; ++run) {
     const double radius = 0.04;
     World world(radius);
-    world.add(box_mesh({6, 6, 0.2}), at(0, 0, -1));  // stands
-    world.add(box_mesh({1, 0.3, 0.3}), at(1.5, 0, 0));
-    world.add(box_mesh({0.05, 1, 1}), at(-1.5, 0, 0.2));
+    world.add(box_mesh({6, 6, 0.2}), at(0, 0, -4));  // stands
+    world.add(run % 2 == 0 ? box_mesh({1, 0.3, 0.3}) : box_mesh({0.05, 1, 1}), at(1.5, 0, 0));
     world.place({0, 0, 0});
     int pushed = 0;
     for (int k = 0; k < 60; ++k) {
-      std::vector<Screw> screws{{}};
-      for (std::size_t i = 1; i < 3; ++i) {
-        // Towards the middle, so that they meet the ball often.
-        const Vec3 to = random.point(0.5) - world.pose(i).translation;
-        Screw screw = shift(to.x(), to.y(), to.z());
-        screw.through = world.pose(i).translation.cast<Real>();
-        screw.angle = static_cast<Real>(random.between(-1, 1));
-        screws.push_back(screw);
-      }
-      ASSERT_GT(world.tick(screws, random.point(0.8)), 0.01 * radius) << run << " " << k;
+      // Towards the middle, so that it meets the ball often.
+      const Vec3 to = random.point(0.5) - world.pose(1).translation;
+      Screw screw = shift(to.x(), to.y(), to.z());
+      screw.through = world.pose(1).translation.cast<Real>();
+      screw.angle = static_cast<Real>(random.between(-1, 1));
+      ASSERT_GE(world.tick({{}, screw}, random.point(0.8)), 0.87 * radius) << run << " " << k;
       pushed += world.state().carried > 0 ? 1 : 0;
     }
     EXPECT_GT(pushed, 10);

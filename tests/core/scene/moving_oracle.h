@@ -24,9 +24,7 @@ struct Screw {
   Point axis = Point::UnitZ(), through = Point::Zero();
   Real angle = 0, travel = 0;
 
-  Turn turn(Real time) const {
-    return Eigen::AngleAxis<Real>(time * angle, axis).toRotationMatrix();
-  }
+  Turn turn(Real time) const { return Eigen::AngleAxis<Real>(time * angle, axis).toRotationMatrix(); }
   Point operator()(const Point& point, Real time) const {
     return turn(time) * (point - through) + through + time * travel * axis;
   }

@@ -105,7 +105,8 @@ TEST(MovingSweep, IsNeverLateAndEarlyByItsBound) {
     for (std::size_t k = 0; k < bodies; ++k) {
       Solid solid{tetrahedron(random.between(0.2, 0.8))};
       if (random.below(4) == 0)
-        solid = {TriangleMesh({random.point(0.5), random.point(0.5)}, {{0, 1, 1}}), random.between(0.05, 0.3)};
+        solid = {TriangleMesh({random.point(0.5), random.point(0.5)}, {{0, 1, 1}}),
+                 random.between(0.05, 0.3)};
       tick.add({solid, random_pose(random, random.point(1.2)), random_screw(random, turn)});
     }
     const std::optional<BodyImpact> answer = tick.answer();
@@ -135,8 +136,9 @@ TriangleMesh blade() {
   return TriangleMesh({{0, 0, -1}, {2, 0, -1}, {2, 0, 1}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}});
 }
 
-std::optional<BodyImpact> hit_of(const TriangleMesh& mesh, const Sweep& sweep, const std::vector<Pose>& before,
-                                 const std::vector<Pose>& after, const TickPart& part = TickPart()) {
+std::optional<BodyImpact> hit_of(const TriangleMesh& mesh, const Sweep& sweep,
+                                 const std::vector<Pose>& before, const std::vector<Pose>& after,
+                                 const TickPart& part = TickPart()) {
   Scene<BruteForce> scene;
   const ShapeId shape = scene.add_shape(Shape<BruteForce>::build(mesh));
   Moving moving;

@@ -9,7 +9,7 @@
 #include "core/detector.h"
 #include "core/float_limits.h"
 #include "core/scene/body_query.h"
-#include "core/scene/moving_body.h"
+#include "core/scene/moving/moving_body.h"
 #include "core/scene/round/round_body.h"
 #include "core/scene/scene_bodies.h"
 #include "core/scene/shape.h"
@@ -42,7 +42,8 @@ class MovingSweep {
     double begin = 0, length = limit;
     while (begin < limit) {
       const double end = std::min(begin + length, limit);
-      const auto [in_frame, chord] = asked(begin, end, shape.is_round() ? Accuracy() : shape.detector->accuracy());
+      const auto [in_frame, chord] =
+          asked(begin, end, shape.is_round() ? Accuracy() : shape.detector->accuracy());
       if (!(in_frame.radius < infinity)) return Impact{begin, {}};
       const std::optional<Impact> hit = hit_at_rest(shape, in_frame, session, work);
       if (!hit) {
@@ -99,10 +100,9 @@ class MovingSweep {
 };
 
 template <BodyDetector D>
-std::optional<BodyImpact> Scene<D>::first_hit_moving(const Sweep& sweep, std::span<const MovingBody> moving,
-                                                     Session& session, const TickPart& part,
-                                                     const MovingBody* left_out) const
-    noexcept requires AnswersSweep<D> {
+std::optional<BodyImpact> Scene<D>::first_hit_moving(
+    const Sweep& sweep, std::span<const MovingBody> moving, Session& session, const TickPart& part,
+    const MovingBody* left_out) const noexcept requires AnswersSweep<D> {
   if (!(sweep.radius >= 0) || !sweep.from.allFinite() || !sweep.to.allFinite()) return std::nullopt;
   const auto moves = [&](std::uint32_t body) {
     return std::ranges::any_of(moving, [&](const MovingBody& m) { return m.body() == bodies_.id(body); });

@@ -1,4 +1,4 @@
-#include "core/scene/moving_body.h"
+#include "core/scene/moving/moving_body.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-/// A body that goes from one pose to another within a tick, along the screw between them, and how a probe that
-/// goes straight meanwhile moves in its frame. docs/exactness.md, E33.
+/// A body that goes from one pose to another within a tick, along the screw between them, and how a probe
+/// that goes straight meanwhile moves in its frame. docs/exactness.md, E33.
 #pragma once
 
 #include "core/probe.h"
@@ -43,14 +43,16 @@ class MovingBody {
   double relative_way(const Sweep& sweep, const TickPart& part) const noexcept;
 
  private:
-  Vec3 velocity(const Vec3& point) const noexcept { return turn_.cross(point - before_.translation) + shift_; }
+  Vec3 velocity(const Vec3& point) const noexcept {
+    return turn_.cross(point - before_.translation) + shift_;
+  }
 
   BodyId body_;
   Pose before_;
   Vec3 turn_ = Vec3::Zero();   ///< axis times angle
   Vec3 shift_ = Vec3::Zero();  ///< the velocity of the body's origin at the start, in a tick
-  double turn_error_ = 0;      ///< bounds what `at` is off the motion, times the distance to the body's origin
-  double shift_error_ = 0;     ///< and besides
+  double turn_error_ = 0;   ///< bounds what `at` is off the motion, times the distance to the body's origin
+  double shift_error_ = 0;  ///< what it is off anywhere, besides
 };
 
 /// Returns the place of a probe after this fraction of its sweep, rounded.
