@@ -10,6 +10,7 @@
 #include "bench/workload/trace.h"
 #include "bench/workload/workload.h"
 #include "core/aabb_tree/aabb_tree.h"
+#include "core/scene/moving/moving_body.h"
 
 namespace touchmark::bench::workload {
 namespace {
@@ -62,6 +63,19 @@ void carry(std::vector<Vec3>& positions, std::span<const double> times, const sc
   }
 }
 
+/// Throws PoseError for a body that turns too far in a step to be asked about on its way.
+void expect_moving(const scenes::ScheduleView& schedule, const scenes::PlacedScene& scene) {
+  std::vector<Pose> poses;
+  for (const scenes::PlacedScene::PlacedBody& body : scene.bodies) poses.push_back(body.start);
+  for (std::size_t step = 0; step < schedule.steps(); ++step) {
+    for (const scenes::BodyMove& move : schedule.at(step)) {
+      Pose& pose = poses[move.body];
+      if (step > 0) MovingBody({static_cast<std::uint32_t>(move.body), 0}, pose, move.pose());
+      pose = move.pose();
+    }
+  }
+}
+
 }  // namespace
 
 Workload make_scene_workload(scenes::GeneratedScene scene, const Selection& selection,
@@ -86,6 +100,8 @@ Workload make_scene_workload(scenes::GeneratedScene scene, const Selection& sele
     workload.trajectories.push_back(trajectory.name);
     workload.traces.push_back(trace_along(trajectory, workload.radius, workload.reach));
     workload.schedules.push_back(scenes::schedule_of(scene.motion, times));
+    if (std::ranges::find(selection.queries, Query::moving) != selection.queries.end())
+      expect_moving(workload.schedules.back().view(), placed(scene.scene));
   }
   workload.scene = std::make_shared<const scenes::BodyScene>(std::move(scene.scene));
   return workload;
