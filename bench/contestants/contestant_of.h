@@ -27,9 +27,7 @@ namespace touchmark::bench::contestants {
 /// A detector over a scene that answers among bodies that move: `move_to` moves them to where they are at a
 /// step, and remembers from where.
 template <class D>
-concept AnswersMoving = requires(D& detector, const Sweep& sweep, typename D::Session& session,
-                                 const scenes::ScheduleView* schedule) {
-  { detector.move_to(schedule, std::size_t{}) } -> std::same_as<bool>;
+concept AnswersMoving = requires(D& detector, const Sweep& sweep, typename D::Session& session) {
   { detector.first_hit_moving(sweep, session) } -> std::same_as<std::optional<Impact>>;
 };
 

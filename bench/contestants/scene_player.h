@@ -42,12 +42,10 @@ concept SweepsScene = PlayableScene<S> &&
   { scene.first_hit_body(sweep, session) } -> std::same_as<std::optional<BodyImpact>>;
 };
 
+/// One that answers among bodies that move: `moving` is a body's way to a pose.
 template <class S>
-concept SweepsMovingScene = SweepsScene<S> &&
-    requires(S& scene, const S& asked, std::uint32_t body, const Pose& pose, const Sweep& sweep,
-             std::span<const MovingBody> moving, typename S::Session& session) {
-  { asked.moving(body, pose) } -> std::same_as<MovingBody>;
-  { asked.first_hit_moving(sweep, moving, session) } -> std::same_as<std::optional<BodyImpact>>;
+concept SweepsMovingScene = SweepsScene<S> && requires(const S& scene, std::uint32_t body, const Pose& pose) {
+  { scene.moving(body, pose) } -> std::same_as<MovingBody>;
 };
 
 template <class S>

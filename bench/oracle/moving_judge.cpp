@@ -89,8 +89,7 @@ ErrorCounts judge_moving(SceneOracle& oracle, std::span<const BodyScrew> screws,
     time += speed > 0 ? std::max(left / speed, shortest) : 1;
   }
   const double there = gap(until);
-  if (!found) touches = touches || there < -rounding;
-  if (touches) {
+  if (touches || (!found && there < -rounding)) {
     counts.missed = 1;
   } else if (found && there > early * speed + rounding) {
     counts.false_contacts = 1;

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -64,15 +66,12 @@ void carry(std::vector<Vec3>& positions, std::span<const double> times, const sc
 }
 
 /// Throws PoseError for a body that turns too far in a step to be asked about on its way.
-void expect_moving(const scenes::ScheduleView& schedule, const scenes::PlacedScene& scene) {
-  std::vector<Pose> poses;
-  for (const scenes::PlacedScene::PlacedBody& body : scene.bodies) poses.push_back(body.start);
-  for (std::size_t step = 0; step < schedule.steps(); ++step) {
-    for (const scenes::BodyMove& move : schedule.at(step)) {
-      Pose& pose = poses[move.body];
-      if (step > 0) MovingBody({static_cast<std::uint32_t>(move.body), 0}, pose, move.pose());
-      pose = move.pose();
-    }
+void expect_moving(const scenes::Schedule& schedule) {
+  std::map<std::uint64_t, Pose> poses;
+  for (const scenes::BodyMove& move : schedule.moves) {
+    const auto [before, is_first] = poses.try_emplace(move.body, move.pose());
+    if (!is_first) MovingBody({static_cast<std::uint32_t>(move.body), 0}, before->second, move.pose());
+    before->second = move.pose();
   }
 }
 
@@ -101,7 +100,7 @@ Workload make_scene_workload(scenes::GeneratedScene scene, const Selection& sele
     workload.traces.push_back(trace_along(trajectory, workload.radius, workload.reach));
     workload.schedules.push_back(scenes::schedule_of(scene.motion, times));
     if (std::ranges::find(selection.queries, Query::moving) != selection.queries.end())
-      expect_moving(workload.schedules.back().view(), placed(scene.scene));
+      expect_moving(workload.schedules.back());
   }
   workload.scene = std::make_shared<const scenes::BodyScene>(std::move(scene.scene));
   return workload;

@@ -90,8 +90,12 @@ class Proxy {
   /// One tick: follows the goal as far as the surface lets it. The state is this tick's, and stays where it
   /// is until the next one.
   const ProxyState& step(const Vec3& goal, typename D::Session& session) noexcept {
-    motion_.begin_way();
-    if constexpr (SeesMotion<D>) follow_bodies(session);
+    motion_.begin_way(motion_.position());
+    if constexpr (SeesMotion<D>) {
+      // With the largest share of the radius with which it is free all along.
+      for (int eighths = known_eighths_; !moving_.empty() && !is_carried(eighths, session);) --eighths;
+      moving_ = {};
+    }
     if (!motion_.begin(goal)) return motion_.state();
     work_ = coupling().max_work > 0 ? limited_work(session) : nullptr;
     if (work_ != nullptr) {
@@ -158,57 +162,48 @@ class Proxy {
     return true;
   }
 
-  /// Lets the bodies that have moved carry the proxy with the largest share of what it keeps that is free.
-  void follow_bodies(typename D::Session& session) noexcept {
-    if (moving_.empty()) return;
-    for (int eighths = known_eighths_; !is_carried(eighths, session); --eighths) continue;
-    moving_ = {};
-  }
-
   /// Rests until a body comes as near as so many eighths of the radius, and rests in that body's frame from
   /// then on, where all others stay off by half an eighth less; one that does not carries it on, and that is
   /// half an eighth less again. Returns false, and stays, where that is not free, but for 0 eighths.
   bool is_carried(int eighths, typename D::Session& session) noexcept {
-    struct Carried {
-      Vec3 to;
-      ProxyState::Carry carry;
-    };
-    std::array<Carried, ProxyState::max_carries> carried;
-    std::size_t count = 0;
     const double eighth = motion_.coupling().radius / 8, all = eighth * eighths;
     const bool at_any_price = !(all > 0);
-    Vec3 at = motion_.position();
+    const Vec3 start = motion_.position();
     const auto body_of = [&](const auto& hit) {
       return std::ranges::find_if(moving_, [&](const auto& m) { return m.body() == hit->body; });
     };
-    const auto met = detector_->first_hit_moving({at, at, all}, moving_, session);
+    const auto met = detector_->first_hit_moving({start, start, all}, moving_, session);
     if (!met) return true;
-    if (body_of(met) == moving_.end()) return at_any_price;
-    const auto* carrier = &*body_of(met);
+    auto carrier = body_of(met);
+    if (carrier == moving_.end()) return at_any_price;
     double begin = met->impact.fraction, time = begin;
+    Vec3 at = start;
     const auto carry_to = [&](double end) {
       at = carrier->carried(at, {time, end});
       time = end;
-      carried[count] = {at, {static_cast<std::size_t>(carrier - moving_.data()), begin, end}};
+    };
+    const auto note_carry = [&] {
+      motion_.carry(at, {static_cast<std::size_t>(carrier - moving_.begin()), begin, time});
     };
     while (time < 1) {
+      const std::size_t count = motion_.state().carried;
       const double end = std::min(time + carried_part(*carrier, at), 1.0);
       const double kept = std::max(all - eighth * static_cast<double>(1 + count) / 2, 0.0);
       const Sweep chord{at, carrier->carried(at, {time, end}), kept + carrier->sagitta(at, {time, end})};
-      const auto hit = detector_->first_hit_moving(chord, moving_, session, {time, end}, carrier);
+      const auto hit = detector_->first_hit_moving(chord, moving_, session, {time, end}, &*carrier);
       const auto next = hit ? body_of(hit) : moving_.end();
-      const bool goes_on = next != moving_.end() && count + 1 < carried.size();
-      if (hit && !goes_on && !at_any_price) return false;
-      if (!goes_on) {
+      if (!hit || next == moving_.end() || count + 1 == ProxyState::max_carries) {
         carry_to(end);
-        continue;
+        if (!hit || at_any_price) continue;
+        motion_.begin_way(start);
+        return false;
       }
       carry_to(time + hit->impact.fraction * (end - time));
-      ++count;
+      note_carry();
       begin = time;
-      carrier = &*next;
+      carrier = next;
     }
-    for (std::size_t k = 0; k <= count; ++k) motion_.carry(carried[k].to, carried[k].carry);
+    note_carry();
     return true;
   }
 

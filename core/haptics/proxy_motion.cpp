@@ -45,8 +45,8 @@ void ProxyMotion::surface_moved(const TriangleMesh* mesh) noexcept {
   rests_ = false;
 }
 
-void ProxyMotion::begin_way() noexcept {
-  state_.way[0] = state_.position;
+void ProxyMotion::begin_way(const Vec3& at) noexcept {
+  state_.position = state_.way[0] = at;
   state_.pieces = state_.carried = 0;
   state_.unfinished = false;
 }

@@ -82,7 +82,7 @@ class ProxyMotion {
   }
 
   /// Begins the way of a tick. What has moved may carry the proxy before it goes by itself.
-  void begin_way() noexcept;
+  void begin_way(const Vec3& at) noexcept;
   void carry(const Vec3& to, const ProxyState::Carry& carry) noexcept;
   /// Begins a tick. Returns false where there is nothing to be found out: the goal and all else are as they
   /// were when it came to rest, or the goal is no number.

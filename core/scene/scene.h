@@ -236,8 +236,7 @@ class Scene {
     std::uint32_t body = 0;
 
     void take(const Impact& hit, std::uint32_t whose) noexcept {
-      if (impact && (hit.fraction > impact->fraction || (hit.fraction == impact->fraction && whose > body)))
-        return;
+      if (impact && std::pair(hit.fraction, whose) > std::pair(impact->fraction, body)) return;
       impact = hit;
       body = whose;
     }

