@@ -241,6 +241,11 @@ class Scene {
       body = whose;
     }
   };
+  /// Are all bodies, standing where they are, surely beyond what the sweep reaches?
+  bool is_clear_of_all(const Sweep& sweep, const Session& session) const noexcept {
+    const double reach = sweep.radius + path_length(sweep.from, sweep.to);
+    return session.near.all_are_beyond(sweep.from, reach, bodies_);
+  }
   /// Returns the first touch with bodies that are not left out, standing where they are.
   template <class LeftOut>
   FirstImpact first_of_standing(const Sweep& sweep, const LeftOut& is_left_out,

@@ -154,8 +154,6 @@ typename Scene<D>::FirstImpact Scene<D>::first_of_standing(const Sweep& sweep, c
     AnswersSweep<D> {
   FirstImpact first;
   const double limit = sweep.radius;
-  if (session.near.all_are_beyond(sweep.from, limit + path_length(sweep.from, sweep.to), bodies_))
-    return first;
   session.last = {
       {LastQuestion::Query::sweep, limit}, sweep.to, sweep.to - sweep.from, SceneState::of(bodies_)};
   ask_near(
@@ -176,6 +174,7 @@ template <BodyDetector D>
 std::optional<BodyImpact> Scene<D>::first_hit_body(const Sweep& sweep,
                                                    Session& session) const noexcept requires AnswersSweep<D> {
   if (!(sweep.radius >= 0) || !sweep.from.allFinite() || !sweep.to.allFinite()) return std::nullopt;
+  if (is_clear_of_all(sweep, session)) return std::nullopt;
   auto [first, whose] = first_of_standing(
       sweep, [](std::uint32_t) { return false; }, session);
   if (session.work.undecided) return BodyImpact();

@@ -106,7 +106,8 @@ std::optional<BodyImpact> Scene<D>::first_hit_moving(
   const auto moves = [&](std::uint32_t body) {
     return std::ranges::any_of(moving, [&](const MovingBody& m) { return m.body() == bodies_.id(body); });
   };
-  FirstImpact first = first_of_standing(sweep, moves, session);
+  FirstImpact first;
+  if (!is_clear_of_all(sweep, session)) first = first_of_standing(sweep, moves, session);
   for (const MovingBody& body : moving) {
     if (&body == left_out || !bodies_.has(body.body())) continue;
     const std::uint32_t index = body.body().index;
