@@ -51,9 +51,9 @@ void add_selectors(CLI::App& command, ProgramContext& context, contestants::Sele
   add_list(command, "--detector", selectors.detectors, "D",
            "a contestant (touchmark list) as NAME[:key=value,...]; repeatable");
   add_plugins(command, context, &selectors.detectors);
-  add_value(
-      command, "--query", selectors.query, "QUERY",
-      variety == contestants::Variety::one ? "touches, nearest or sweep" : "touches, nearest, sweep or all");
+  add_value(command, "--query", selectors.query, "QUERY",
+            variety == contestants::Variety::one ? "touches, nearest, sweep or, of a scene, moving"
+                                                 : "touches, nearest, sweep, moving (of a scene) or all");
   add_value(command, "--radius", selectors.radius, "LENGTH",
             "the probe's, in mesh units or % of the box diagonal");
   add_value(command, "--reach", selectors.reach, "LENGTH",

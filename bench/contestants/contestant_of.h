@@ -24,6 +24,13 @@
 
 namespace touchmark::bench::contestants {
 
+/// A detector over a scene that answers among bodies that move: `move_to` moves them to where they are at a
+/// step, and remembers from where.
+template <class D>
+concept AnswersMoving = requires(D& detector, const Sweep& sweep, typename D::Session& session) {
+  { detector.first_hit_moving(sweep, session) } -> std::same_as<std::optional<Impact>>;
+};
+
 /// What a type of detector declares.
 template <Detector D>
 std::vector<workload::Query> queries_of() {
@@ -31,6 +38,7 @@ std::vector<workload::Query> queries_of() {
   if constexpr (AnswersTouches<D>) queries.push_back(workload::Query::touches);
   if constexpr (AnswersNearest<D>) queries.push_back(workload::Query::nearest);
   if constexpr (AnswersSweep<D>) queries.push_back(workload::Query::sweep);
+  if constexpr (AnswersMoving<D>) queries.push_back(workload::Query::moving);
   return queries;
 }
 
@@ -74,6 +82,8 @@ class ContestantOf final : public Contestant {
   std::unique_ptr<Contestant> share() const override { return std::make_unique<ContestantOf>(detector_); }
   bool stand_at([[maybe_unused]] const workload::QueryTrace& trace,
                 [[maybe_unused]] std::size_t step) noexcept override {
+    if constexpr (AnswersMoving<D>)
+      if (trace.query == workload::Query::moving) return detector_->move_to(trace.schedule, step);
     if constexpr (StandsInSchedules<D>) return detector_->stand_at(trace.schedule, step);
     return false;
   }
@@ -92,6 +102,8 @@ class ContestantOf final : public Contestant {
         return AnswersNearest<D>;
       case workload::Query::sweep:
         return AnswersSweep<D>;
+      case workload::Query::moving:
+        return AnswersMoving<D>;
     }
     return false;
   }
@@ -244,6 +256,15 @@ class ContestantOf final : public Contestant {
     if constexpr (StandsInSchedules<D>) answer.body = answer.found != 0 ? session.body : 0;
     return answer;
   }
+  static workload::Answer answer_of(const std::optional<Impact>& impact,
+                                    const typename D::Session& session) noexcept {
+    return impact ? about_body(workload::Answer::of(impact->contact, impact->fraction), session)
+                  : workload::Answer{};
+  }
+  static Sweep sweep_at(std::span<const workload::Step> steps, std::size_t i) noexcept {
+    const Probe& now = steps[i].probe;
+    return {steps[i > 0 ? i - 1 : 0].probe.center, now.center, now.radius};
+  }
   void prepare() noexcept {
     if constexpr (prefetch == Prefetch::on && Prepares<D>) detector_->prepare(*session_);
   }
@@ -279,11 +300,14 @@ class ContestantOf final : public Contestant {
     if constexpr (AnswersSweep<D>) {
       if (query == workload::Query::sweep) {
         return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
-          const Probe& now = steps[i].probe;
-          const Sweep sweep{steps[i > 0 ? i - 1 : 0].probe.center, now.center, now.radius};
-          const std::optional<Impact> impact = detector.first_hit(sweep, session);
-          return impact ? about_body(workload::Answer::of(impact->contact, impact->fraction), session)
-                        : workload::Answer{};
+          return answer_of(detector.first_hit(sweep_at(steps, i), session), session);
+        });
+      }
+    }
+    if constexpr (AnswersMoving<D>) {
+      if (query == workload::Query::moving) {
+        return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
+          return answer_of(detector.first_hit_moving(sweep_at(steps, i), session), session);
         });
       }
     }

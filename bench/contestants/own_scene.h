@@ -54,6 +54,14 @@ class OwnScene {
                                            Session& session) const noexcept requires AnswersSweep<D> {
     return scene_.first_hit_body(sweep, session);
   }
+  /// Throws PoseError.
+  MovingBody moving(std::uint32_t body, const Pose& after) const {
+    return {ids_[body], scene_.pose(ids_[body]), after};
+  }
+  std::optional<BodyImpact> first_hit_moving(const Sweep& sweep, std::span<const MovingBody> moving,
+                                             Session& session) const noexcept requires AnswersSweep<D> {
+    return scene_.first_hit_moving(sweep, moving, session);
+  }
   bool touches(const Probe& probe, Session& session) const noexcept { return scene_.touches(probe, session); }
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept {

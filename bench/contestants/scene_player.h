@@ -17,6 +17,7 @@
 #include "bench/contestants/entry.h"
 #include "bench/scenes/schedule.h"
 #include "core/scene/body.h"
+#include "core/scene/moving/moving_body.h"
 
 namespace touchmark::bench::contestants {
 
@@ -39,6 +40,12 @@ template <class S>
 concept SweepsScene = PlayableScene<S> &&
     requires(const S& scene, const Sweep& sweep, typename S::Session& session) {
   { scene.first_hit_body(sweep, session) } -> std::same_as<std::optional<BodyImpact>>;
+};
+
+/// One that answers among bodies that move: `moving` is a body's way to a pose.
+template <class S>
+concept SweepsMovingScene = SweepsScene<S> && requires(const S& scene, std::uint32_t body, const Pose& pose) {
+  { scene.moving(body, pose) } -> std::same_as<MovingBody>;
 };
 
 template <class S>
@@ -78,6 +85,7 @@ class ScenePlayer {
   /// Returns true if bodies were moved.
   bool stand_at(const scenes::ScheduleView* schedule, std::size_t step) {
     bool moved = false;
+    moved_in_ = nullptr;
     const auto place = [&](std::uint32_t body, const Pose& pose) {
       scene_.place(body, pose);
       moved = true;
@@ -86,6 +94,23 @@ class ScenePlayer {
     if constexpr (requires { scene_.publish(); })
       if (moved) scene_.publish();
     return moved;
+  }
+
+  /// As stand_at, and remembers how bodies came there from the step before.
+  bool move_to(const scenes::ScheduleView* schedule, std::size_t step) requires SweepsMovingScene<S> {
+    if (schedule == moved_in_ && step == moved_to_) return false;
+    const bool moved = stand_at(schedule, step > 0 ? step - 1 : 0);
+    moving_.clear();
+    follower_.stand_at(
+        schedule, step,
+        [&](std::uint32_t body, const Pose& pose) {
+          moving_.push_back(scene_.moving(body, pose));
+          scene_.place(body, pose);
+        },
+        [&](std::uint32_t body) { return starts_[body]; });
+    moved_in_ = schedule;
+    moved_to_ = step;
+    return moved || !moving_.empty();
   }
 
   /// The contact that decides is told, too: the body of a touch is the nearest one.
@@ -110,6 +135,14 @@ class ScenePlayer {
     return found->impact;
   }
 
+  std::optional<Impact> first_hit_moving(const Sweep& sweep,
+                                         Session& session) const noexcept requires SweepsMovingScene<S> {
+    const std::optional<BodyImpact> found = scene_.first_hit_moving(sweep, moving_, session);
+    if (!found) return std::nullopt;
+    session.body = found->body.index;
+    return found->impact;
+  }
+
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept requires GuidesProxyInScene<S> {
     return scene_.contacts(probe, reach, session, into);
@@ -124,6 +157,9 @@ class ScenePlayer {
   S scene_;
   std::vector<Pose> starts_;
   scenes::ScheduleFollower follower_;
+  std::vector<MovingBody> moving_;  ///< from the step before `moved_to_`
+  const scenes::ScheduleView* moved_in_ = nullptr;
+  std::size_t moved_to_ = 0;
 };
 
 /// Throws std::invalid_argument for options that are of one mesh.

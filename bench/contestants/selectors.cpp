@@ -14,7 +14,7 @@ constexpr std::uint64_t max_steps = 100'000'000;
 
 workload::Query checked_query(const std::string& text) {
   const std::optional<workload::Query> query = workload::query_named(text);
-  if (!query) throw support::bad_value("--query", text, "one of touches, nearest, sweep");
+  if (!query) throw support::bad_value("--query", text, "one of touches, nearest, sweep, moving");
   return *query;
 }
 
@@ -47,6 +47,8 @@ CheckedSelectors check(const Selectors& selectors, const Roster& roster, Variety
   } else {
     selection.queries.push_back(checked_query(selectors.query));
   }
+  if (selection.queries.front() == workload::Query::moving && selectors.scene.empty())
+    throw std::invalid_argument("--query moving is of bodies, and there is no --scene");
   selection.radius = support::checked_length("--radius", selectors.radius, support::Infinity::allowed);
   if (!selectors.reach.empty())
     selection.reach = support::checked_length("--reach", selectors.reach, support::Infinity::allowed);

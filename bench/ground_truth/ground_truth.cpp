@@ -34,6 +34,7 @@ bool TraceTruths::is_found(workload::Query query, std::size_t step) const {
 std::vector<StepTruth> TraceTruths::known(workload::Query query) const {
   const bool sweeps = query == workload::Query::sweep;
   std::vector<StepTruth> steps(steps_.size());
+  if (query == workload::Query::moving) return steps;  // each answer is judged by itself
   for (std::size_t i = 0; i < steps.size(); ++i) {
     StepTruth& step = steps[i];
     step.known = sweeps ? sweeps_.known[i] : positions_.known[i];
@@ -54,10 +55,10 @@ WrongAnswer TraceTruths::wrong_answer(workload::Query query, std::size_t step, c
   wrong.step = step;
   wrong.query = query;
   wrong.asked = steps_[step];
-  wrong.found = is_found(query, step);
+  wrong.found = query == workload::Query::moving ? charged.missed > 0 : is_found(query, step);
   wrong.got = got;
   wrong.charged = charged;
-  if (query == workload::Query::sweep) {
+  if (workload::is_of_a_way(query)) {
     const Sweep sweep = sweep_of(step);
     wrong.from = sweep.from;
     if (got.found != 0)

@@ -1,6 +1,7 @@
 #include "bench/ground_truth/scene_truths.h"
 
 #include "bench/oracle/judge.h"
+#include "bench/oracle/moving_judge.h"
 #include "bench/support/system/interrupt.h"
 
 namespace touchmark::bench::ground_truth {
@@ -44,6 +45,16 @@ std::vector<double> SceneTruths::distances(const std::vector<std::size_t>& steps
   return distances;
 }
 
+oracle::ErrorCounts SceneTruths::judge_moving(std::size_t step, const workload::Answer& answer) {
+  stand_at(step > 0 ? step - 1 : 0);
+  std::vector<oracle::BodyScrew> screws;
+  for (std::uint32_t body = 0; body < scene_.bodies.size(); ++body)
+    screws.emplace_back(body, oracle_.pose(body));
+  stand_at(step);
+  std::erase_if(screws, [&](oracle::BodyScrew& screw) { return !screw.goes_to(oracle_.pose(screw.body())); });
+  return oracle::judge_moving(oracle_, screws, sweep_of(step), answer);
+}
+
 oracle::ErrorCounts SceneTruths::judge(workload::Query query, const std::vector<workload::StepRange>& ranges,
                                        std::span<const workload::Answer> answers, const Accuracy& accuracy,
                                        const oracle::Reported& reported, std::vector<WrongAnswer>* wrong,
@@ -57,7 +68,8 @@ oracle::ErrorCounts SceneTruths::judge(workload::Query query, const std::vector<
       stand_at(step);
       const workload::Answer& answer = answers[done];
       const oracle::ErrorCounts one =
-          query == workload::Query::sweep
+          query == workload::Query::moving ? judge_moving(step, answer)
+          : query == workload::Query::sweep
               ? oracle::judge_one(oracle_, sweep(step), sweep_of(step), answer, accuracy, reported)
               : oracle::judge_one(oracle_, position(step), query, steps_[step].probe, steps_[step].reach,
                                   answer, accuracy, reported);

@@ -35,6 +35,8 @@ class SceneTruths final : public TraceTruths {
 
  private:
   void stand_at(std::size_t step);
+  /// Judges an answer about the way of probe and bodies from the step before.
+  oracle::ErrorCounts judge_moving(std::size_t step, const workload::Answer& answer);
   const oracle::GroundTruth& position(std::size_t step);
   const oracle::SweepGroundTruth& sweep(std::size_t step);
   const oracle::Reference& reference() const override { return oracle_; }

@@ -27,6 +27,7 @@ std::string question(const WrongAnswer& wrong) {
     case workload::Query::nearest:
       return fmt::format("probe {} reach {}", text(probe.center), wrong.asked.reach);
     case workload::Query::sweep:
+    case workload::Query::moving:
       return fmt::format("sweep from {} to {} radius {}", text(wrong.from), text(probe.center), probe.radius);
   }
   return "";
@@ -51,7 +52,8 @@ std::string expected(const WrongAnswer& wrong) {
       return fmt::format("{}, distance {}", wrong.found ? "contact" : "none", wrong.truth.high);
     case workload::Query::nearest:
       return (wrong.found ? "" : "none, but ") + contact_of(wrong);
-    case workload::Query::sweep: {
+    case workload::Query::sweep:
+    case workload::Query::moving: {
       const std::string there = contact_of(wrong);
       return fmt::format("{}{}", wrong.found ? "a hit" : "none",
                          there.empty() ? "" : "; where it was told " + there);
@@ -69,7 +71,7 @@ std::string got(const WrongAnswer& wrong) {
   const std::string owner = of_body(wrong, answer.body);
   const std::string contact = fmt::format("{}{}{} at {}, normal {}{}", answer.distance, named, owner,
                                           text(answer.point), text(answer.normal), with_side(answer.side));
-  return wrong.query == workload::Query::sweep
+  return workload::is_of_a_way(wrong.query)
              ? fmt::format("a hit at fraction {}: {}", answer.fraction, contact)
              : contact;
 }

@@ -78,7 +78,9 @@ class Certified final : public ProxyMethod {
 }  // namespace
 
 void take(const ProxyState& state, Step& step) {
-  step.way.assign(state.way.begin(), state.way.begin() + static_cast<std::ptrdiff_t>(state.pieces + 1));
+  // What it was carried is no way of its own among bodies that stand.
+  step.way.assign(state.way.begin() + static_cast<std::ptrdiff_t>(state.carried),
+                  state.way.begin() + static_cast<std::ptrdiff_t>(state.pieces + 1));
   step.contacts = state.contacts;
   step.force = state.force;
   step.status = status_of(state.status);

@@ -33,8 +33,13 @@ class CertifiedOverBodies final : public ProxyMethod {
   /// A mesh is not what it runs on: see move.
   void update(const TriangleMesh&) override {}
   void move(std::span<const Vec3> places, const TriangleMesh&) override {
+    moving_.clear();
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      const Pose after = pose_of(places[i], 1, 0, 0, 0);
+      if (after != scene_.pose(ids_[i])) moving_.emplace_back(ids_[i], scene_.pose(ids_[i]), after);
+    }
     move_bodies(places);
-    proxy_.surface_moved();
+    proxy_.bodies_moved(moving_);
   }
   bool limit_work(std::uint64_t max_work) override {
     proxy_.limit_work(max_work);
@@ -54,6 +59,7 @@ class CertifiedOverBodies final : public ProxyMethod {
 
   Scene<D> scene_;
   std::vector<BodyId> ids_;
+  std::vector<MovingBody> moving_;
   typename Scene<D>::Session session_, session_of_bare_query_;
   Proxy<Scene<D>> proxy_;
 };

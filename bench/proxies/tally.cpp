@@ -40,7 +40,9 @@ bool Judge::violates(const Vec3& position) const {
                             : oracle_->meets(position, position);
 }
 
-void Judge::see(const WayOracle& oracle, const std::function<void()>& move) {
+void Judge::see(const WayOracle& oracle, const std::function<void()>& move,
+                const std::optional<Vec3>& shift) {
+  shift_ = shift;
   const bool was_fine = oracle_ == nullptr || excused_ || !violates(position_);
   move();
   oracle_ = &oracle;
@@ -59,6 +61,7 @@ void Judge::tick(std::size_t index, const Step& step) {
   }
   if (step.status == Status::in_contact) ++tally_.contact_ticks;
   if (step.status == Status::stuck) ++tally_.stuck_ticks;
+  judge_carried(step.way.front());
   tally_.pieces += step.way.size() - 1;
   judge_way(step, goal);
   judge_rest(index, step);
@@ -70,6 +73,15 @@ void Judge::tick(std::size_t index, const Step& step) {
     tally_.max_optimum_error = std::max(tally_.max_optimum_error, error);
   }
   position_ = step.position();
+}
+
+/// In the frame of what goes straight the proxy came straight from where that saw it before the tick.
+void Judge::judge_carried(const Vec3& to) {
+  if (shift_ && oracle_->meets(position_ + *shift_, to)) ++tally_.crossings;
+  shift_.reset();
+  if (to == position_) return;
+  position_ = clear_at_ = to;
+  excused_ = violates(to);
 }
 
 /// While a crossing leaves it open where the proxy is, nothing is said.

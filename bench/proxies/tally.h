@@ -51,12 +51,15 @@ class Judge {
 
   /// To be called before the first tick and whenever the mesh has moved. What the surface does to a proxy
   /// that rests is not the method's doing: until it is off again its ticks count for neither. `move` moves
-  /// what the oracle of before knows, where it is the same.
+  /// what the oracle of before knows, where it is the same. Where all of the surface goes straight by `shift`
+  /// meanwhile, a proxy that it goes through has crossed, too.
   void see(
-      const WayOracle& oracle, const std::function<void()>& move = [] {});
+      const WayOracle& oracle, const std::function<void()>& move = [] {},
+      const std::optional<Vec3>& shift = std::nullopt);
   void tick(std::size_t index, const Step& step);
 
  private:
+  void judge_carried(const Vec3& to);
   void judge_end(const Step& step, const Vec3& goal);
   void judge_way(const Step& step, const Vec3& goal);
   void judge_side(const Step& step, bool crossed);
@@ -71,6 +74,7 @@ class Judge {
   const WayOracle* oracle_ = nullptr;
   Vec3 position_, force_ = Vec3::Zero();
   bool excused_ = false;
+  std::optional<Vec3> shift_;
   /// The place where it was last clear of the surface, or seen first: on which side is asked after a crossing
   /// only, as it takes exact arithmetic over the whole mesh.
   Vec3 clear_at_ = Vec3::Zero();

@@ -27,7 +27,7 @@ std::string field_of(const std::string& name) {
 
 std::string answer_header(workload::Query query, const AnswerColumns& columns) {
   std::string header = "step,touching,triangle,distance,point_x,point_y,point_z,normal_x,normal_y,normal_z";
-  if (query == workload::Query::sweep) header += ",fraction";
+  if (workload::is_of_a_way(query)) header += ",fraction";
   if (columns.side) header += ",side";
   if (columns.bodies != nullptr) header += ",body";
   return header + "\n";
@@ -39,7 +39,7 @@ void append_answer_row(std::string& rows, workload::Query query, std::size_t ind
   const auto out = std::back_inserter(rows);
   fmt::format_to(out, "{},{}", index, touching(query, step, answer) ? 1 : 0);
   if (query == workload::Query::touches || answer.found == 0) {
-    rows += query == workload::Query::sweep ? ",,,,,,,,," : ",,,,,,,,";
+    rows += workload::is_of_a_way(query) ? ",,,,,,,,," : ",,,,,,,,";
     if (columns.side) rows += ',';
   } else {
     rows += ',';
@@ -47,7 +47,7 @@ void append_answer_row(std::string& rows, workload::Query query, std::size_t ind
     fmt::format_to(out, ",{}", answer.distance);
     for (const double x : answer.point) fmt::format_to(out, ",{}", x);
     for (const double x : answer.normal) fmt::format_to(out, ",{}", x);
-    if (query == workload::Query::sweep) fmt::format_to(out, ",{}", answer.fraction);
+    if (workload::is_of_a_way(query)) fmt::format_to(out, ",{}", answer.fraction);
     if (columns.side) fmt::format_to(out, ",{}", workload::name_of(answer.side));
   }
   if (columns.bodies != nullptr) {

@@ -63,7 +63,7 @@ inline constexpr Kind share{[](Text text) { return is_number(text, [](double x) 
                             "a share from 0 to 1"};
 inline constexpr Kind checksum{[](Text text) { return support::is_hex(text); }, "16 hexadecimal digits"};
 inline constexpr Kind query{[](Text text) { return workload::query_named(text).has_value(); },
-                            "one of touches, nearest, sweep"};
+                            "one of touches, nearest, sweep, moving"};
 inline constexpr Kind guarantee{
     [](Text text) { return text == "exact" || text == "conservative" || text == "approximate"; },
     "one of exact, conservative, approximate"};

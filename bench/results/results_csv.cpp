@@ -104,7 +104,7 @@ constexpr auto columns = std::to_array<Column<R>>({
      "the motion's name or file, as `--trajectory` took it"},
     {"query", text<&R::query>, always, query,
      "`touches`: is the distance at most the radius; `nearest`: the contact within the reach; `sweep`: the "
-     "first touch along the straight line of a tick"},
+     "first touch along the straight line of a tick; `moving`: the same among bodies that move meanwhile"},
     {"steps", text<&R::steps>, always, whole_number,
      "servo ticks replayed, timed and verified, each one query; a slow contestant gets fewer, so that all "
      "get about the same time: blocks of 32 drawn by phase (in contact, within 2 % of the diagonal of it, "

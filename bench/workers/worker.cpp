@@ -198,7 +198,7 @@ Built Worker::built() {
   geometry_.reset();  // detectors hold copies of what they need
   built.bytes = contestant_->bytes();
   built.accuracy = contestant_->accuracy();
-  for (const workload::Query query : workload::all_queries) {
+  for (const workload::Query query : workload::queries_of_scenes) {
     if (contestant_->answers(query)) built.queries.push_back(query);
   }
   built.prepares = contestant_->prepares();

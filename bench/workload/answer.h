@@ -10,7 +10,11 @@
 
 namespace touchmark::bench::workload {
 
-enum class Query : std::uint32_t { touches, nearest, sweep };
+/// `moving` is a sweep among bodies that go from where they were a step before.
+enum class Query : std::uint32_t { touches, nearest, sweep, moving };
+
+/// Returns true if it asks about the way from the step before.
+constexpr bool is_of_a_way(Query query) noexcept { return query >= Query::sweep; }
 
 /// One step's answer. For `touches` only `found` counts. Plain bytes: no pointer, no padding, no Eigen.
 struct Answer {

@@ -9,7 +9,10 @@
 
 namespace touchmark::bench::workload {
 
+/// What `all` stands for: the queries about one mesh.
 inline constexpr std::array<Query, 3> all_queries{Query::touches, Query::nearest, Query::sweep};
+inline constexpr std::array<Query, 4> queries_of_scenes{Query::touches, Query::nearest, Query::sweep,
+                                                        Query::moving};
 
 constexpr std::string_view name_of(Query query) noexcept {
   switch (query) {
@@ -19,12 +22,14 @@ constexpr std::string_view name_of(Query query) noexcept {
       return "nearest";
     case Query::sweep:
       return "sweep";
+    case Query::moving:
+      return "moving";
   }
   return "";
 }
 
 constexpr std::optional<Query> query_named(std::string_view name) noexcept {
-  for (const Query query : all_queries) {
+  for (const Query query : queries_of_scenes) {
     if (name_of(query) == name) return query;
   }
   return std::nullopt;

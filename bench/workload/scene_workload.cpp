@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -10,6 +12,7 @@
 #include "bench/workload/trace.h"
 #include "bench/workload/workload.h"
 #include "core/aabb_tree/aabb_tree.h"
+#include "core/scene/moving/moving_body.h"
 
 namespace touchmark::bench::workload {
 namespace {
@@ -62,6 +65,16 @@ void carry(std::vector<Vec3>& positions, std::span<const double> times, const sc
   }
 }
 
+/// Throws PoseError for a body that turns too far in a step to be asked about on its way.
+void expect_moving(const scenes::Schedule& schedule) {
+  std::map<std::uint64_t, Pose> poses;
+  for (const scenes::BodyMove& move : schedule.moves) {
+    const auto [before, is_first] = poses.try_emplace(move.body, move.pose());
+    if (!is_first) MovingBody({static_cast<std::uint32_t>(move.body), 0}, before->second, move.pose());
+    before->second = move.pose();
+  }
+}
+
 }  // namespace
 
 Workload make_scene_workload(scenes::GeneratedScene scene, const Selection& selection,
@@ -86,6 +99,8 @@ Workload make_scene_workload(scenes::GeneratedScene scene, const Selection& sele
     workload.trajectories.push_back(trajectory.name);
     workload.traces.push_back(trace_along(trajectory, workload.radius, workload.reach));
     workload.schedules.push_back(scenes::schedule_of(scene.motion, times));
+    if (std::ranges::find(selection.queries, Query::moving) != selection.queries.end())
+      expect_moving(workload.schedules.back());
   }
   workload.scene = std::make_shared<const scenes::BodyScene>(std::move(scene.scene));
   return workload;

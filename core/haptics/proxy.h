@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -43,6 +44,21 @@ concept GuidesProxy = requires(const D& detector, const Probe& probe, const Swee
 };
 // clang-format on
 
+/// A detector of bodies that can say what they meet while they move, as a scene can.
+template <class D>
+concept SeesMotion = requires {
+  typename D::Session::Moving;
+};
+/// What a proxy over D is told of a body that has moved.
+template <class D>
+struct MovingOf {
+  struct Type {};
+};
+template <SeesMotion D>
+struct MovingOf<D> {
+  using Type = typename D::Session::Moving;
+};
+
 /// One proxy over one detector, which must outlive it. Steps take no memory, and each asks a bounded number
 /// of questions, within Coupling::max_work where that is set: what is not known by then counts as touched.
 template <GuidesProxy D>
@@ -59,11 +75,27 @@ class Proxy {
   void place(const Vec3& position) noexcept { motion_.place(position); }
   /// To be called after each update of the detector. The proxy stays where it is; where the surface was moved
   /// onto it, it is `stuck` until it is off, and comes no nearer meanwhile.
-  void surface_moved(const TriangleMesh* mesh = nullptr) noexcept { motion_.surface_moved(mesh); }
+  void surface_moved(const TriangleMesh* mesh = nullptr) noexcept {
+    known_eighths_ = motion_.free_eighths().value_or(8);
+    motion_.surface_moved(mesh);
+  }
+  /// To be called instead where bodies of a scene have moved, after Scene::move: from where the last step
+  /// left them to where they are now. The next step begins with what they do to the proxy: it rests until
+  /// one meets it, and then goes with that one. `moving` outlives that step.
+  void bodies_moved(std::span<const typename MovingOf<D>::Type> moving) noexcept requires SeesMotion<D> {
+    surface_moved();
+    moving_ = moving;
+  }
 
   /// One tick: follows the goal as far as the surface lets it. The state is this tick's, and stays where it
   /// is until the next one.
   const ProxyState& step(const Vec3& goal, typename D::Session& session) noexcept {
+    motion_.begin_way(motion_.position());
+    if constexpr (SeesMotion<D>) {
+      // With the largest share of the radius with which it is free all along.
+      for (int eighths = known_eighths_; !moving_.empty() && !is_carried(eighths, session);) --eighths;
+      moving_ = {};
+    }
     if (!motion_.begin(goal)) return motion_.state();
     work_ = coupling().max_work > 0 ? limited_work(session) : nullptr;
     if (work_ != nullptr) {
@@ -130,6 +162,58 @@ class Proxy {
     return true;
   }
 
+  /// Rests until a body comes as near as so many eighths of the radius, and rests in that body's frame from
+  /// then on, where all others stay off by half an eighth less; one that does not carries it on, and that is
+  /// half an eighth less again. Returns false, and stays, where that is not free, but for 0 eighths.
+  bool is_carried(int eighths, typename D::Session& session) noexcept {
+    const double eighth = motion_.coupling().radius / 8, all = eighth * eighths;
+    const bool at_any_price = !(all > 0);
+    const Vec3 start = motion_.position();
+    const auto body_of = [&](const auto& hit) {
+      return std::ranges::find_if(moving_, [&](const auto& m) { return m.body() == hit->body; });
+    };
+    const auto met = detector_->first_hit_moving({start, start, all}, moving_, session);
+    if (!met) return true;
+    auto carrier = body_of(met);
+    if (carrier == moving_.end()) return at_any_price;
+    double begin = met->impact.fraction, time = begin;
+    Vec3 at = start;
+    const auto carry_to = [&](double end) {
+      at = carrier->carried(at, {time, end});
+      time = end;
+    };
+    const auto note_carry = [&] {
+      motion_.carry(at, {static_cast<std::size_t>(carrier - moving_.begin()), begin, time});
+    };
+    while (time < 1) {
+      const std::size_t count = motion_.state().carried;
+      const double end = std::min(time + carried_part(*carrier, at), 1.0);
+      const double kept = std::max(all - eighth * static_cast<double>(1 + count) / 2, 0.0);
+      const Sweep chord{at, carrier->carried(at, {time, end}), kept + carrier->sagitta(at, {time, end})};
+      const auto hit = detector_->first_hit_moving(chord, moving_, session, {time, end}, &*carrier);
+      const auto next = hit ? body_of(hit) : moving_.end();
+      if (!hit || next == moving_.end() || count + 1 == ProxyState::max_carries) {
+        carry_to(end);
+        if (!hit || at_any_price) continue;
+        motion_.begin_way(start);
+        return false;
+      }
+      carry_to(time + hit->impact.fraction * (end - time));
+      note_carry();
+      begin = time;
+      carrier = next;
+    }
+    note_carry();
+    return true;
+  }
+
+  /// Returns how long a part of the tick may be in which the way of what is carried is nearly straight.
+  template <class Moving>
+  double carried_part(const Moving& carrier, const Vec3& at) const noexcept {
+    const double bend = carrier.sagitta(at, {0, 1}), slack = motion_.coupling().radius / 64;
+    return bend > slack ? std::max(std::sqrt(slack / bend), 1.0 / 16) : 1;
+  }
+
   void slide(typename D::Session& session) noexcept {
     while (const std::optional<Vec3> target = motion_.next_target()) {
       double margin = motion_.margin(*target);
@@ -171,7 +255,9 @@ class Proxy {
 
   const D* detector_;
   ProxyMotion motion_;
-  LimitedWork* work_ = nullptr;  ///< This step's, where it is limited.
+  LimitedWork* work_ = nullptr;                         ///< This step's, where it is limited.
+  std::span<const typename MovingOf<D>::Type> moving_;  ///< what the next step has to follow
+  int known_eighths_ = 8;  ///< how many eighths of the radius were free before that
 };
 
 }  // namespace touchmark

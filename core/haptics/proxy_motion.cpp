@@ -45,10 +45,18 @@ void ProxyMotion::surface_moved(const TriangleMesh* mesh) noexcept {
   rests_ = false;
 }
 
-bool ProxyMotion::begin(const Vec3& goal) noexcept {
-  state_.way[0] = state_.position;
-  state_.pieces = 0;
+void ProxyMotion::begin_way(const Vec3& at) noexcept {
+  state_.position = state_.way[0] = at;
+  state_.pieces = state_.carried = 0;
   state_.unfinished = false;
+}
+
+void ProxyMotion::carry(const Vec3& to, const ProxyState::Carry& carry) noexcept {
+  state_.carries[state_.carried++] = carry;
+  state_.position = state_.way[++state_.pieces] = to;
+}
+
+bool ProxyMotion::begin(const Vec3& goal) noexcept {
   if (!goal.allFinite()) {
     state_.status = ProxyStatus::unanswered;
     state_.contacts = 0;
@@ -212,7 +220,8 @@ void ProxyMotion::look_around(std::span<const Contact> contacts) noexcept {
 /// Is the end no farther from the goal than the start, but for rounding? By the difference of the squares,
 /// which cancels less than they do.
 bool ProxyMotion::came_nearer() const noexcept {
-  const Vec3 moved = position() - state_.way[0], before = state_.way[0] - goal_;
+  const Vec3& start = state_.way[state_.carried];
+  const Vec3 moved = position() - start, before = start - goal_;
   return moved.dot(2 * before + moved) <= before.norm() * skin_ / 8;
 }
 
@@ -245,9 +254,9 @@ void ProxyMotion::note_contacts() noexcept {
 }
 
 const ProxyState& ProxyMotion::end(bool is_unfinished) noexcept {
-  if (state_.pieces > 0 && !is_at_goal() && !came_nearer()) {
-    state_.position = state_.way[0];
-    state_.pieces = 0;
+  if (state_.pieces > state_.carried && !is_at_goal() && !came_nearer()) {
+    state_.position = state_.way[state_.carried];
+    state_.pieces = state_.carried;
     planes_.clear();
   }
   if (is_at_goal()) planes_.clear();

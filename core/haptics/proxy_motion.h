@@ -40,6 +40,15 @@ struct ProxyState {
   /// The straight pieces of the tick's way: from way[0], where it was, over each to `position`.
   std::array<Vec3, max_pieces + 1> way;
   std::size_t pieces = 0;
+  /// A piece on which the proxy rested in the frame of a body that moved.
+  struct Carry {
+    std::size_t body = 0;       ///< by its place in what `bodies_moved` was given
+    double begin = 0, end = 1;  ///< when, as parts of the tick of the bodies
+  };
+  static constexpr std::size_t max_carries = 4;
+  /// The first pieces of the way: the ends are as told, but the way between them is the body's.
+  std::array<Carry, max_carries> carries;
+  std::size_t carried = 0;  ///< how many they are
   /// The step ended at Coupling::max_work, where it was by then. The next one goes on.
   bool unfinished = false;
 };
@@ -72,6 +81,9 @@ class ProxyMotion {
     may_touch_ = eighths < 8;
   }
 
+  /// Begins the way of a tick. What has moved may carry the proxy before it goes by itself.
+  void begin_way(const Vec3& at) noexcept;
+  void carry(const Vec3& to, const ProxyState::Carry& carry) noexcept;
   /// Begins a tick. Returns false where there is nothing to be found out: the goal and all else are as they
   /// were when it came to rest, or the goal is no number.
   bool begin(const Vec3& goal) noexcept;

@@ -14,6 +14,7 @@
 #include "core/scene/body.h"
 #include "core/scene/body_query.h"
 #include "core/scene/body_sweep.h"
+#include "core/scene/moving/moving_body.h"
 #include "core/scene/near_bodies.h"
 #include "core/scene/near_surface.h"
 #include "core/scene/pose.h"
@@ -47,6 +48,7 @@ class Scene {
   static constexpr bool keeps_to_limit = KeepsToLimit<D>;
   /// What one haptic point remembers between ticks.
   struct Session {
+    using Moving = MovingBody;  ///< what first_hit_moving is told of a body
     LimitedWork work;
     NearBodies near;
     NearSurface surface;
@@ -147,6 +149,13 @@ class Scene {
   /// lowest body's.
   std::optional<BodyImpact> first_hit_body(const Sweep& sweep,
                                            Session& session) const noexcept requires AnswersSweep<D>;
+  /// The first touch on a way that takes `part` of a tick in which these bodies move, wherever the scene has
+  /// them, and all others stand. Never late; early by a bound of the distance there (E33), and 0 where the
+  /// probe may touch at the start. `left_out`, one of them, is not looked at.
+  std::optional<BodyImpact> first_hit_moving(const Sweep& sweep, std::span<const MovingBody> moving,
+                                             Session& session, const TickPart& part = TickPart(),
+                                             const MovingBody* left_out = nullptr) const noexcept requires
+      AnswersSweep<D>;
 
   /// One contact for each triangle of a body whose distance is at most the reach, which is decided exactly;
   /// by the distances told, then the lowest body, then the lowest triangle. Writes the first of them into
@@ -222,6 +231,26 @@ class Scene {
   void ask_near(const Vec3& from, const Vec3& to, const double& limit, bool was_compared, Session& session,
                 const Ask& ask) const noexcept;
 
+  struct FirstImpact {
+    std::optional<Impact> impact;
+    std::uint32_t body = 0;
+
+    void take(const Impact& hit, std::uint32_t whose) noexcept {
+      if (impact && std::pair(hit.fraction, whose) > std::pair(impact->fraction, body)) return;
+      impact = hit;
+      body = whose;
+    }
+  };
+  /// Are all bodies, standing where they are, surely beyond what the sweep reaches?
+  bool is_clear_of_all(const Sweep& sweep, const Session& session) const noexcept {
+    const double reach = sweep.radius + path_length(sweep.from, sweep.to);
+    return session.near.all_are_beyond(sweep.from, reach, bodies_);
+  }
+  /// Returns the first touch with bodies that are not left out, standing where they are.
+  template <class LeftOut>
+  FirstImpact first_of_standing(const Sweep& sweep, const LeftOut& is_left_out,
+                                Session& session) const noexcept requires AnswersSweep<D>;
+
   /// Lists the triangles of bodies around the point for the queries to come, where that may pay.
   bool list_surface(const Vec3& point, double reach, Session& session) const noexcept;
   /// Returns what `ask` does, which asks the list, that is made anew where it cannot tell.
@@ -247,5 +276,6 @@ class Scene {
 
 }  // namespace touchmark
 
-#include "core/scene/scene_queries.h"    // IWYU pragma: export
-#include "core/scene/surface_queries.h"  // IWYU pragma: export
+#include "core/scene/moving/moving_sweep.h"  // IWYU pragma: export
+#include "core/scene/scene_queries.h"        // IWYU pragma: export
+#include "core/scene/surface_queries.h"      // IWYU pragma: export

@@ -148,30 +148,35 @@ std::optional<BodyContact> Scene<D>::nearest_body(const Probe& probe, double rea
 }
 
 template <BodyDetector D>
-std::optional<BodyImpact> Scene<D>::first_hit_body(const Sweep& sweep,
-                                                   Session& session) const noexcept requires AnswersSweep<D> {
-  if (!(sweep.radius >= 0) || !sweep.from.allFinite() || !sweep.to.allFinite()) return std::nullopt;
-  std::optional<Impact> first;
-  std::uint32_t whose = 0;
+template <class LeftOut>
+typename Scene<D>::FirstImpact Scene<D>::first_of_standing(const Sweep& sweep, const LeftOut& is_left_out,
+                                                           Session& session) const noexcept requires
+    AnswersSweep<D> {
+  FirstImpact first;
   const double limit = sweep.radius;
-  if (session.near.all_are_beyond(sweep.from, limit + path_length(sweep.from, sweep.to), bodies_))
-    return std::nullopt;
   session.last = {
       {LastQuestion::Query::sweep, limit}, sweep.to, sweep.to - sweep.from, SceneState::of(bodies_)};
   ask_near(
       sweep.from, sweep.to, limit, true, session,
       [&](const Shape<D>& shape, std::uint32_t body, const SeenBody& /*seen*/, typename D::Session& own) {
+        if (is_left_out(body)) return unknown;
         const std::optional<Impact> hit =
             shape.is_round()
                 ? RoundBody(shape, bodies_[body], body, sweep.from).first_hit(sweep, session.work)
                 : BodySweep<D>(shape, bodies_[body], body, sweep, own).first_hit(session.work);
-        if (!hit || (first &&
-                     (hit->fraction > first->fraction || (hit->fraction == first->fraction && body > whose))))
-          return unknown;
-        first = hit;
-        whose = body;
+        if (hit) first.take(*hit, body);
         return unknown;
       });
+  return first;
+}
+
+template <BodyDetector D>
+std::optional<BodyImpact> Scene<D>::first_hit_body(const Sweep& sweep,
+                                                   Session& session) const noexcept requires AnswersSweep<D> {
+  if (!(sweep.radius >= 0) || !sweep.from.allFinite() || !sweep.to.allFinite()) return std::nullopt;
+  if (is_clear_of_all(sweep, session)) return std::nullopt;
+  auto [first, whose] = first_of_standing(
+      sweep, [](std::uint32_t) { return false; }, session);
   if (session.work.undecided) return BodyImpact();
   if (!first) return std::nullopt;
   if (first->fraction == 0) {

@@ -81,6 +81,8 @@ bool PluginDetector::answers(workload::Query query) const noexcept {
       return plugin_->nearest != nullptr;
     case workload::Query::sweep:
       return plugin_->first_hit != nullptr;
+    case workload::Query::moving:
+      return false;
   }
   return false;
 }

@@ -85,6 +85,7 @@ Question question_of(const workload::Workload& workload, workload::Query query, 
       return {"std::optional<touchmark::Contact>", "const touchmark::Vec3& center",
               fmt::format("{}.nearest({{center, {}}}, {}, session_)", asked, radius, reach)};
     case workload::Query::sweep:
+    case workload::Query::moving:
       break;
   }
   return {"std::optional<touchmark::Impact>", "const touchmark::Vec3& from, const touchmark::Vec3& to",

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -95,6 +96,37 @@ TriangleMesh mesh_of(const Swinging& made, std::size_t change) {
   return std::move(surface).mesh();
 }
 
+/// A piston or a solid that goes all the way through the middle between two ticks.
+Swinging passing(bool is_piston, support::Random& random) {
+  meshes::Surface slab;
+  meshes::add_box(slab, Vec3(-1, -1, -0.01) * course_size, Vec3(1, 1, 0.01) * course_size);
+  const TriangleMesh piston = std::move(slab).mesh(), solid = meshes::noisy_sphere(100);
+  const Vec3 way = is_piston ? Vec3::UnitZ() : random.direction();
+  Swinging made;
+  made.add(is_piston ? piston : placed(solid, 0.5 * course_size / solid.diagonal(), any_frame(random)),
+           {Vec3::Zero(), 0.9 * course_size * way, random.between(2.2, 6), random.unit()});
+  return made;
+}
+
+/// The goal goes about the middle while bodies move after every so many ticks.
+Course course_among(std::string name, Swinging bodies, double radius, std::size_t changes_every,
+                    std::size_t ticks, support::Random& random) {
+  const auto swinging = std::make_shared<const Swinging>(std::move(bodies));
+  const Vec3 start(0, 0, 1.5 * course_size);
+  Motion motion(start, ticks);
+  while (!motion.done()) {
+    motion.line(0.2 * course_size * random.unit() * random.direction(), 10 + random.below(40));
+    motion.rest(random.below(30));
+    if (random.below(4) == 0) motion.line(course_size * random.direction(), 20);
+  }
+  Course course{std::move(name), mesh_of(*swinging, 0), radius, 0, start, std::move(motion).take()};
+  course.update_every = changes_every;
+  course.moved = [swinging](std::size_t change) { return mesh_of(*swinging, change); };
+  course.bodies = swinging->bodies;
+  course.places = [swinging](std::size_t change) { return places_of(*swinging, change); };
+  return course;
+}
+
 }  // namespace
 
 std::vector<Course> moving_bodies(std::uint64_t seed, std::size_t ticks) {
@@ -104,25 +136,21 @@ std::vector<Course> moving_bodies(std::uint64_t seed, std::size_t ticks) {
   for (std::size_t i = 0; i < count; ++i) {
     support::Random random(seed * course_seed + 480 + i);
     const double radius = radius_of(i, course_size);
-    const auto swinging = std::make_shared<const Swinging>(i < 2 ? press(radius, random) : crowd(random));
-    const Vec3 start(0, 0, 1.5 * course_size);
-    Motion motion(start, share_of(ticks, count));
-    while (!motion.done()) {
-      motion.line(0.2 * course_size * random.unit() * random.direction(), 10 + random.below(40));
-      motion.rest(random.below(30));
-      if (random.below(4) == 0) motion.line(course_size * random.direction(), 20);
-    }
-    Course course{fmt::format("{} {}", i < 2 ? "press" : "crowd", i),
-                  mesh_of(*swinging, 0),
-                  radius,
-                  0,
-                  start,
-                  std::move(motion).take()};
-    course.update_every = changes_every.at(i);
-    course.moved = [swinging](std::size_t change) { return mesh_of(*swinging, change); };
-    course.bodies = swinging->bodies;
-    course.places = [swinging](std::size_t change) { return places_of(*swinging, change); };
-    made.push_back(std::move(course));
+    Swinging bodies = i < 2 ? press(radius, random) : crowd(random);
+    made.push_back(course_among(fmt::format("{} {}", i < 2 ? "press" : "crowd", i), std::move(bodies), radius,
+                                changes_every.at(i), share_of(ticks, count), random));
+  }
+  return made;
+}
+
+std::vector<Course> passing_bodies(std::uint64_t seed, std::size_t ticks) {
+  constexpr std::size_t count = 4;
+  std::vector<Course> made;
+  for (std::size_t i = 0; i < count; ++i) {
+    support::Random random(seed * course_seed + 500 + i);
+    Swinging bodies = passing(i < 2, random);
+    made.push_back(course_among(fmt::format("{} {}", i < 2 ? "piston" : "solid", i), std::move(bodies),
+                                radius_of(i, course_size), 1 + i % 2, share_of(ticks, count), random));
   }
   return made;
 }

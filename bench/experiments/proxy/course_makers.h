@@ -67,5 +67,6 @@ std::vector<Course> tremors(std::uint64_t seed, std::size_t ticks);
 std::vector<Course> friction(std::uint64_t seed, std::size_t ticks);
 std::vector<Course> deforming(std::uint64_t seed, std::size_t ticks);
 std::vector<Course> moving_bodies(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> passing_bodies(std::uint64_t seed, std::size_t ticks);
 
 }  // namespace touchmark::bench::experiments::proxy

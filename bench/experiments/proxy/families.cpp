@@ -34,6 +34,8 @@ constexpr std::array all_families{
     Family{"deforming", "a surface that changes its shape every ten ticks", &deforming},
     Family{"moving-bodies", "bodies that move between ticks, into the ball and on it from two sides",
            &moving_bodies},
+    Family{"passing-bodies", "pistons and solids that go through the ball's place between two ticks",
+           &passing_bodies},
 };
 
 }  // namespace

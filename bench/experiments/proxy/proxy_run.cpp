@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -48,7 +49,10 @@ void run_course(const contestants::Roster& roster, const Course& course, const s
         proxy->move(course.places(change), mesh);
       else
         proxy->update(mesh);
-      judge.see(*next);  // which still asks the last one
+      std::optional<Vec3> shift;
+      if (course.bodies.size() == 1) shift = course.places(change)[0] - course.places(change - 1)[0];
+      judge.see(
+          *next, [] {}, shift);  // which still asks the last one
       oracle = std::move(next);
     }
     const Clock::time_point asked = Clock::now();

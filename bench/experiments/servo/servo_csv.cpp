@@ -60,7 +60,7 @@ constexpr results::Kind verdict_kind{[](std::string_view text) {
 
 constexpr results::Kind question_kind{
     [](std::string_view text) { return text == proxy_step || kinds::query.accepts(text); },
-    "one of touches, nearest, sweep, proxy"};
+    "one of touches, nearest, sweep, moving, proxy"};
 constexpr results::Kind method_kind{[](std::string_view text) { return text == own_proxy; }, "certified"};
 
 // The order is the contract.

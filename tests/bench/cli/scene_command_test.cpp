@@ -481,6 +481,57 @@ TEST_F(SceneCommand, WritesRowsOfAComparison) {
   EXPECT_EQ(valid.status, 0) << valid.out << valid.err;
 }
 
+TEST_F(SceneCommand, AMovingQuerySeesABodyThatPassesBetweenTwoSteps) {
+  const std::string where = scene(plate("sheet", "[0,0,-3]"));
+  const std::string poses = write("poses.csv",
+                                  "time_s,body,x,y,z,qw,qx,qy,qz\n0,sheet,0,0,-3,1,0,0,0\n"
+                                  "1,sheet,0,0,4,1,0,0,0\n");
+  const std::string motion = write("rest.csv", "time_s,x,y,z\n0,0.2,0.2,0\n1,0.2,0.2,0\n");
+  const std::string csv = write("moving.csv", "");
+  const std::vector<std::string> selectors{"--scene",      where,  "--poses",    poses,
+                                           "--trajectory", motion, "--query",    "moving",
+                                           "--radius",     "0.5",  "--detector", "sphere-cluster"};
+  std::vector<std::string> query{"query"};
+  query.insert(query.end(), selectors.begin(), selectors.end());
+  query.insert(query.end(), {"--csv", csv});
+  const Outcome outcome = run_touchmark(query);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::vector<Fields> rows = fields_in(csv, {"touching", "fraction", "body"});
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0][0], "0");
+  EXPECT_EQ(rows[1][0], "1");
+  EXPECT_NEAR(std::stod(rows[1][1]), (3 - 0.5) / 7, 1e-9);
+  EXPECT_EQ(rows[1][2], "sheet");
+  std::vector<std::string> verify{"verify"};
+  verify.insert(verify.end(), selectors.begin(), selectors.end());
+  EXPECT_EQ(run_touchmark(verify).status, 0);
+}
+
+TEST_F(SceneCommand, AMovingQueryRefusesAMeshAndATurnThatIsTooFar) {
+  const Outcome mesh =
+      run_touchmark({"query", "--mesh", "torus:8x8", "--query", "moving", "--detector", "sphere-cluster"});
+  EXPECT_EQ(mesh.status, 2);
+  EXPECT_NE(mesh.err.find("there is no --scene"), std::string::npos) << mesh.err;
+  const std::string poses = write("poses.csv",
+                                  "time_s,body,x,y,z,qw,qx,qy,qz\n0,sheet,0,0,0,1,0,0,0\n"
+                                  "1,sheet,0,0,0,0,0,0,1\n");
+  const std::string motion = write("rest.csv", "time_s,x,y,z\n0,0.2,0.2,0\n1,0.2,0.2,0\n");
+  const Outcome turn =
+      run_touchmark({"query", "--scene", scene(plate("sheet", "[0,0,0]")), "--poses", poses, "--trajectory",
+                     motion, "--query", "moving", "--detector", "sphere-cluster"});
+  EXPECT_EQ(turn.status, 2);
+  EXPECT_NE(turn.err.find("in a tick, which is more than 2"), std::string::npos) << turn.err;
+}
+
+TEST_F(SceneCommand, MovingQueriesAreRightWhereAllBodiesMove) {
+  for (const std::string scene : {"heap:40:motion=all", "heap:40:motion=few"}) {
+    const Outcome outcome =
+        run_touchmark({"verify", "--scene", scene, "--trajectory", "slide", "--query", "moving", "--steps",
+                       "100", "--detector", "sphere-cluster", "--detector", "brute-force"});
+    EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  }
+}
+
 /// Bodies far larger than the probe: what a sweep takes for their rounding counts beside its own bound.
 TEST_F(SceneCommand, VerifyFindsNoSweepThatStopsTooEarlyInAHeapOfMovingBodies) {
   const Outcome outcome =
