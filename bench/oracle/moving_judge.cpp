@@ -16,8 +16,6 @@ using Real = long double;
 using Point = Eigen::Matrix<Real, 3, 1>;
 using Turn = Eigen::Matrix<Real, 3, 3>;
 
-constexpr std::size_t max_steps = 100'000;  ///< what is still open then is unresolved
-
 }  // namespace
 
 bool BodyScrew::goes_to(const Pose& after) {
@@ -80,7 +78,7 @@ ErrorCounts judge_moving(SceneOracle& oracle, std::span<const BodyScrew> screws,
   const double shortest = sweep.radius > 0 ? 0x1p-12 : 1e-9, surely_before = 1e-3;
   const double until = found ? answer.fraction : 1;
   bool comes_near = false, touches = false;
-  std::size_t steps_left = max_steps;
+  std::size_t steps_left = 100'000;  // what is still open then is unresolved
   for (double time = 0; time < until && !touches && steps_left > 0; --steps_left) {
     const double left = gap(time);
     const bool is_near = left <= std::max(shortest * speed, rounding);

@@ -65,14 +65,16 @@ void carry(std::vector<Vec3>& positions, std::span<const double> times, const sc
   }
 }
 
-/// Throws PoseError for a body that turns too far in a step to be asked about on its way.
-void expect_moving(const scenes::Schedule& schedule) {
+/// Throws std::invalid_argument for a body that turns too far in a step to be asked about on its way.
+void expect_moving(const scenes::Schedule& schedule) try {
   std::map<std::uint64_t, Pose> poses;
   for (const scenes::BodyMove& move : schedule.moves) {
     const auto [before, is_first] = poses.try_emplace(move.body, move.pose());
     if (!is_first) MovingBody({static_cast<std::uint32_t>(move.body), 0}, before->second, move.pose());
     before->second = move.pose();
   }
+} catch (const PoseError& error) {
+  throw std::invalid_argument(error.what());
 }
 
 }  // namespace

@@ -10,8 +10,6 @@
 namespace touchmark {
 namespace {
 
-constexpr double cos_of_max_turn = -0.41614683654714241;
-
 /// sin(x) / x, (1 - cos(x)) / x^2 and (x - sin(x)) / x^3.
 struct TurnSeries {
   double first = 1, second = 1, third = 1;
@@ -72,7 +70,7 @@ MovingBody::MovingBody(const BodyId& body, const Pose& before, const Pose& after
   if (before.rotation != after.rotation) {
     const Eigen::Matrix3d rotation = after.rotation * before.rotation.transpose();
     const double cosine = (rotation.trace() - 1) / 2;
-    if (cosine < cos_of_max_turn)
+    if (cosine < std::cos(max_turn))
       throw PoseError("body " + std::to_string(body.index) + " turns by " +
                       std::to_string(std::acos(std::max(cosine, -1.0))) + " in a tick, which is more than " +
                       std::to_string(max_turn));
@@ -121,8 +119,8 @@ MovingBody::Chord MovingBody::chord(const Sweep& sweep, const TickPart& part, do
     return body.center();
   };
   const Vec3 from = seen(begin), to = seen(end);
-  const double squared = (end - begin) * (end - begin) / 8;
-  return {from, to, bend * squared, (rounding + shift_error_ + bend_error) * (1 + 64 * unit_roundoff)};
+  return {from, to, bend * (end - begin) * (end - begin) / 8,
+          (rounding + shift_error_ + bend_error) * (1 + 64 * unit_roundoff)};
 }
 
 double MovingBody::relative_way(const Sweep& sweep, const TickPart& part) const noexcept {

@@ -45,7 +45,9 @@ class MovingSweep {
       const auto [in_frame, chord] =
           asked(begin, end, shape.is_round() ? Accuracy() : shape.detector->accuracy());
       if (!(in_frame.radius < infinity)) return Impact{begin, {}};
-      const std::optional<Impact> hit = hit_at_rest(shape, in_frame, session, work);
+      const std::optional<Impact> hit =
+          shape.is_round() ? RoundBody(shape, PlacedBody(), 0, in_frame.from).first_hit(in_frame, work)
+                           : shape.detector->first_hit(in_frame, session);
       if (!hit) {
         begin = end;
         length *= 2;
@@ -75,11 +77,6 @@ class MovingSweep {
                                                              distance_error(accuracy, bounds_, chord.to));
     const double radius = sweep_.radius + chord.sagitta + chord.rounding + error;
     return {{chord.from, chord.to, radius * (1 + 4 * unit_roundoff)}, chord};
-  }
-  static std::optional<Impact> hit_at_rest(const Shape<D>& shape, const Sweep& in_frame,
-                                           typename D::Session& session, LimitedWork& work) noexcept {
-    if (!shape.is_round()) return shape.detector->first_hit(in_frame, session);
-    return RoundBody(shape, PlacedBody(), 0, in_frame.from).first_hit(in_frame, work);
   }
   /// The contact in the scene, where body and probe are then.
   Impact told(const Impact& hit, double fraction) const noexcept {

@@ -524,7 +524,7 @@ TEST_F(SceneCommand, AMovingQueryRefusesAMeshAndATurnThatIsTooFar) {
 }
 
 TEST_F(SceneCommand, MovingQueriesAreRightWhereAllBodiesMove) {
-  for (const std::string scene : {"heap:40:motion=all", "heap:40:motion=few"}) {
+  for (const std::string scene : {"heap:40:motion=all", "heap:40:motion=fall"}) {
     const Outcome outcome =
         run_touchmark({"verify", "--scene", scene, "--trajectory", "slide", "--query", "moving", "--steps",
                        "100", "--detector", "sphere-cluster", "--detector", "brute-force"});
