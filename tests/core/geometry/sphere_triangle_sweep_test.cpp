@@ -125,7 +125,8 @@ TEST(SphereTriangleSweep, ABarePointThatSlidesOverAPlaneMeetsItsEndAloneAndTakes
   std::uint64_t decisions = 0, hits = 0, on_the_border = 0;
   for (int i = 0; i < 20000; ++i) {
     const double height = std::ldexp(random() % 2 == 0 ? 1 : -1, -50 + static_cast<int>(random() % 8));
-    const Vec3 from(whole(), whole(), height), on_it(whole(), whole(), 0), above(on_it.x(), on_it.y(), height / 3);
+    const Vec3 from(whole(), whole(), height), on_it(whole(), whole(), 0),
+        above(on_it.x(), on_it.y(), height / 3);
     EXPECT_FALSE(sweep_hit(triangle, {from, above, 0}, 1, decisions)) << i;
     EXPECT_FALSE(sweep_hit(triangle, {above, from, 0}, 1, decisions)) << i;
     const bool inside = on_it.x() >= 0 && on_it.y() >= 0 && on_it.x() + on_it.y() <= 4;
