@@ -52,8 +52,7 @@ Pose BodyScrew::at(double time) const {
 
 ErrorCounts judge_moving(SceneOracle& oracle, std::span<const BodyScrew> screws, const Sweep& sweep,
                          const workload::Answer& answer) {
-  ErrorCounts counts;
-  counts.judged = 1;
+  ErrorCounts counts{.judged = 1};
   const bool found = answer.found != 0;
   if (found && (!well_formed(answer, {}) || !(answer.fraction >= 0 && answer.fraction <= 1))) {
     counts.malformed = 1;
