@@ -44,7 +44,7 @@ TEST(Selectors, ReachIsTheRadiusUnlessGiven) {
 TEST(Selectors, NameTheOptionAndTheValueThatIsWrong) {
   Selectors selectors;
   selectors.query = "near";
-  EXPECT_EQ(error_of(selectors), "--query \"near\" is not one of touches, nearest, sweep");
+  EXPECT_EQ(error_of(selectors), "--query \"near\" is not one of touches, nearest, sweep, moving");
   selectors = {};
   selectors.radius = "-1";
   EXPECT_EQ(
