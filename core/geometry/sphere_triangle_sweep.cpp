@@ -42,11 +42,10 @@ class FirstTouch {
     return reached.here.gap - reached.here.error - above >
            gap_.steepest_fall(reached.here) * (end - reached.fraction);
   }
-  /// A point meets the triangle's plane nowhere if both ends are strictly on one side of it, and at one end
-  /// alone if that is the one on it. This tells one that slides along a face apart for a small part of what
-  /// distances cost.
+  /// Returns true if a bare point surely meets nothing, by the sides of the triangle's plane that its ends
+  /// are on: strictly on one side they do not meet the plane, and one on it meets the plane there alone. This
+  /// costs a small part of what distances do.
   bool keeps_off_plane(const PathGap::Sample& start) const noexcept {
-    if (sweep_.radius > 0) return false;
     const auto& [a, b, c] = triangle_.corner;
     const int first = side_of_plane(a, b, c, sweep_.from), last = side_of_plane(a, b, c, sweep_.to);
     if (first == 0 && last == 0) return false;
@@ -140,7 +139,7 @@ std::optional<double> FirstTouch::find(double limit) noexcept {
   constexpr int max_steps = 64;
   if (!gap_.is_defined()) return std::nullopt;
   Reached reached{0, gap_.at(0)};
-  if (!stays_above(0, reached, 1) && keeps_off_plane(reached.here)) return std::nullopt;
+  if (sweep_.radius == 0 && !stays_above(0, reached, 1) && keeps_off_plane(reached.here)) return std::nullopt;
   if (reached.here.gap <= reached.here.error && touches_at_start(reached.here)) return 0;
   for (int step = 0; step < max_steps; ++step) {
     if (reached.here.surely_rises() || stays_above(0, reached, 1) || stays_apart(reached))

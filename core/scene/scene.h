@@ -241,7 +241,7 @@ class Scene {
       body = whose;
     }
   };
-  /// Are all bodies, standing where they are, surely beyond what the sweep reaches?
+  /// Returns true if all bodies, standing where they are, are surely beyond what the sweep reaches.
   bool is_clear_of_all(const Sweep& sweep, const Session& session) const noexcept {
     const double reach = sweep.radius + path_length(sweep.from, sweep.to);
     return session.near.all_are_beyond(sweep.from, reach, bodies_);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/float_limits.h"
+#include "core/geometry/sphere_triangle_sweep.h"
 #include "core/scene/seen_body.h"
 
 namespace touchmark {
@@ -106,7 +107,7 @@ MovingBody::Chord MovingBody::chord(const Sweep& sweep, const TickPart& part, do
   const Vec3 way = sweep.to - sweep.from;
   double bend = 0, bend_error = 0, rounding = 0;
   const auto seen = [&](double fraction) {
-    const Vec3 place = place_at(sweep, fraction);
+    const Vec3 place = position_at(sweep, fraction);
     const Pose pose = at(part.begin + fraction * length);
     const SeenBody body(pose, rigid_error(pose.rotation), place);
     const Vec3 speed = length * velocity(place), turn = length * turn_;

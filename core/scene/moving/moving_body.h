@@ -55,9 +55,4 @@ class MovingBody {
   double shift_error_ = 0;  ///< what it is off anywhere, besides
 };
 
-/// Returns the place of a probe after this fraction of its sweep, rounded.
-inline Vec3 place_at(const Sweep& sweep, double fraction) noexcept {
-  return fraction == 1 ? sweep.to : Vec3(sweep.from + fraction * (sweep.to - sweep.from));
-}
-
 }  // namespace touchmark

@@ -8,6 +8,7 @@
 
 #include "core/detector.h"
 #include "core/float_limits.h"
+#include "core/geometry/sphere_triangle_sweep.h"
 #include "core/scene/body_query.h"
 #include "core/scene/moving/moving_body.h"
 #include "core/scene/round/round_body.h"
@@ -27,7 +28,7 @@ class MovingSweep {
         sweep_(sweep),
         part_(part) {}
 
-  /// Is the body surely farther all the way up to this fraction, by its bounds?
+  /// Returns true if the body's bounds are surely farther all the way up to this fraction.
   bool is_beyond_bounds(double limit) const noexcept {
     const auto [in_frame, chord] = asked(0, limit);
     const Vec3 middle = in_frame.from + 0.5 * (in_frame.to - in_frame.from);
@@ -84,7 +85,7 @@ class MovingSweep {
     Contact contact = hit.contact;
     contact.point = image(pose, contact.point);
     contact.normal = (pose.rotation * contact.normal).normalized();
-    contact.distance = (place_at(sweep_, fraction) - contact.point).norm();
+    contact.distance = (position_at(sweep_, fraction) - contact.point).norm();
     return {fraction, contact};
   }
 

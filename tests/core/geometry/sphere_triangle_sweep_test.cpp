@@ -118,7 +118,7 @@ TEST(SphereTriangleSweep, AlongANeedleTheTouchIsNotToldTooLate) {
   EXPECT_LE(distance, sweep.radius + tolerance);
 }
 
-/// Of 900 triangles in the plane of a cap each took an exact decision of whole numbers.
+/// A point over a gear's cap took an exact decision for each of 900 triangles in the cap's plane.
 TEST(SphereTriangleSweep, ABarePointThatSlidesOverAPlaneMeetsItsEndAloneAndTakesFewExactDecisions) {
   std::mt19937_64 random(3);
   const auto whole = [&] { return static_cast<double>(random() % 33) / 4 - 2; };  // -2 to 6 by quarters

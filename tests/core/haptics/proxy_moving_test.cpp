@@ -176,7 +176,7 @@ TEST(MovedProxy, IsMetByBodiesThatPassItsPlaceInOneTick) {
   }
 }
 
-// Of two that close on it until nothing is left between them no side is right, so one moves at a time.
+// One moves at a time: where two close on it until nothing is left between them, no side is right.
 TEST(MovedProxy, IsNeverOnTheOtherSideOfWhatMovesAtRandom) {
   Random random(11);
   int pushed = 0;

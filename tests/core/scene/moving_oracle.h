@@ -28,7 +28,7 @@ struct Screw {
   Point operator()(const Point& point, Real time) const {
     return turn(time) * (point - through) + through + time * travel * axis;
   }
-  /// Where a point came from that is there at this time.
+  /// Returns where a point came from that is there at this time.
   Point undone(const Point& point, Real time) const {
     return turn(time).transpose() * (point - time * travel * axis - through) + through;
   }

@@ -174,7 +174,7 @@ TEST(MovingSweep, FindsAPistonThatGoesThroughAllOfTheBall) {
   ASSERT_TRUE(hit);
   EXPECT_LE(hit->impact.fraction, 3.75 / 8);
   EXPECT_NEAR(hit->impact.fraction, 3.75 / 8, 1e-12);
-  // Of a part of the tick in which they do not meet nothing is told.
+  // No hit is told for a part of the tick in which they do not meet.
   EXPECT_FALSE(hit_of(face, {{0, 0, 1}, {0, 0, 0.75}, 0.25}, {at(-3)}, {at(4)}, {0, 0.25}));
   const auto later = hit_of(face, {{0, 0, 1}, {0, 0, 0.5}, 0.25}, {at(-3)}, {at(4)}, {0.25, 0.75});
   ASSERT_TRUE(later);
