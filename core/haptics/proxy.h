@@ -54,6 +54,7 @@ template <class D>
 struct MovingOf {
   struct Type {};
 };
+/// The description that D itself takes.
 template <SeesMotion D>
 struct MovingOf<D> {
   using Type = typename D::Session::Moving;
