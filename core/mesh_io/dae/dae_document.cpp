@@ -50,7 +50,8 @@ std::string key(std::string_view kind, std::string_view id) {
 /// one.
 std::string label(const xml_node& element) {
   constexpr std::size_t max_length = 40;
-  std::string text = "<" + std::string(element.name()).substr(0, max_length) + ">";
+  std::string text =
+      std::string("<").append(std::string_view(element.name()).substr(0, max_length)).append(">");
   for (xml_node named = element; named; named = named.parent()) {
     const char* id = named.attribute("id").value();
     if (*id != '\0') return text + (named == element ? " " : " in ") + quoted(id);
