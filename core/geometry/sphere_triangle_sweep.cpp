@@ -188,11 +188,11 @@ double touch_fraction(const PreparedTriangle& triangle, const Sweep& sweep, cons
                                     : bounds.first;
 }
 
-std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit) noexcept {
-  std::uint64_t uncounted = 0;
-  const std::optional<TouchBounds> bounds = touch_bounds(triangle, sweep, limit, uncounted);
+std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit,
+                                std::uint64_t& exact_decisions) noexcept {
+  const std::optional<TouchBounds> bounds = touch_bounds(triangle, sweep, limit, exact_decisions);
   if (!bounds) return std::nullopt;
-  const double fraction = touch_fraction(triangle, sweep, *bounds, uncounted);
+  const double fraction = touch_fraction(triangle, sweep, *bounds, exact_decisions);
   return fraction <= limit ? std::optional(fraction) : std::nullopt;
 }
 

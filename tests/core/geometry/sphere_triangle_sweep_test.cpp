@@ -194,8 +194,8 @@ TEST(SphereTriangleSweep, ALongWayThatPiercesTheFaceOrEndsOnACornerIsNotMissed) 
   }
 }
 
-/// Returns where a ball that goes about this way touches the feature (1: a corner, 2: an edge, 3: the face), and
-/// comes near to it at this rate.
+/// Returns where a ball that goes about this way touches the feature (1: a corner, 2: an edge, 3: the face),
+/// and comes near to it at this rate.
 Sweep grazing(RandomCases& random, const PreparedTriangle& t, int feature, double radius, double rate,
               double length) {
   Vec3 along = random.point(), outward = t.normal, foot = t.corner[0];
@@ -205,7 +205,8 @@ Sweep grazing(RandomCases& random, const PreparedTriangle& t, int feature, doubl
     foot += 0.25 * (1 + random.coordinate()) * edge;
     outward += (edge.cross(t.normal)).normalized();
   }
-  if (feature == 1) outward = (2 * t.corner[0] - t.corner[1] - t.corner[2]).normalized() + 0.1 * random.point();
+  if (feature == 1)
+    outward = (2 * t.corner[0] - t.corner[1] - t.corner[2]).normalized() + 0.1 * random.point();
   outward.normalize();
   along = (along - along.dot(outward) * outward).normalized() - rate * outward;
   const Vec3 touch = foot + radius * outward;
@@ -222,21 +223,23 @@ TEST(SphereTriangleSweep, TheFractionIsNeverLateAndEarlyByLessThanFourUnitsInThe
     const auto placed = [&](const Vec3& point) -> Vec3 { return scale * (point + far); };
     const PreparedTriangle unit = random.triangle();
     const double radius = trial % 4 == 0 ? 0 : std::exp2(12 * random.coordinate() - 6);
-    const double rate = std::exp2(-30 * std::abs(random.coordinate())), length = std::exp2(10 * random.coordinate() - 4);
+    const double rate = std::exp2(-30 * std::abs(random.coordinate())),
+                 length = std::exp2(10 * random.coordinate() - 4);
     const Sweep about = grazing(random, unit, 1 + trial % 3, radius, rate, length);
-    const PreparedTriangle t = prepare(placed(unit.corner[0]), placed(unit.corner[1]), placed(unit.corner[2]), 0);
+    const PreparedTriangle t =
+        prepare(placed(unit.corner[0]), placed(unit.corner[1]), placed(unit.corner[2]), 0);
     const Sweep sweep{placed(about.from), placed(about.to), scale * radius};
     const auto order = [&](double fraction) {
-      return bench::oracle::compare_part_distance(sweep.from, sweep.to, fraction, bench::oracle::Triangle(t.corner),
-                                                  sweep.radius);
+      return bench::oracle::compare_part_distance(sweep.from, sweep.to, fraction,
+                                                  bench::oracle::Triangle(t.corner), sweep.radius);
     };
     const auto hit = sweep_hit(t, sweep, 1);
     ASSERT_EQ(hit.has_value(), order(1) <= 0) << trial;
     if (!hit || *hit == 0) continue;
     ++hits;
     if (rate < 1e-6) ++grazes;
-    ASSERT_GE(order(*hit), 0) << trial;
-    ASSERT_LE(order(std::min(*hit + max_early, 1.0)), 0) << trial;
+    ASSERT_FALSE(order(*hit) < 0) << trial << " is late";
+    ASSERT_TRUE(order(std::min(*hit + max_early, 1.0)) <= 0) << trial << " is early";
   }
   EXPECT_GT(hits, 5000);
   EXPECT_GT(grazes, 1000);
