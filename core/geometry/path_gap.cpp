@@ -12,6 +12,9 @@
 namespace touchmark {
 namespace {
 
+using double_double::difference;
+using DoubleDoubles = double_double::Vector;
+
 /// Bounds by how much the direction from the foot is off, for a distance that is off by `error`:
 /// docs/exactness.md, E17.
 double direction_error(double distance, double error) noexcept {
@@ -32,15 +35,37 @@ double first_root(double value, double fall, double curve, double raised) noexce
   return value / (fall + std::sqrt(root));
 }
 
-/// Returns the vector from the corner to the path's point.
-double_double::Vector position_from(const Sweep& sweep, double fraction, const Vec3& corner) noexcept {
-  double_double::Vector position = double_double::difference(sweep.from, corner);
-  const double_double::Vector path = double_double::difference(sweep.to, sweep.from);
-  for (std::size_t k = 0; k < 3; ++k) position[k] = position[k] + DoubleDouble{fraction} * path[k];
-  return position;
+/// Three sums in double-double that are added up at the end: each is off by less than 2^-100 of the sum of
+/// all magnitudes, and costs half of what operators do.
+DoubleDouble loose_dot(const DoubleDoubles& a, const DoubleDoubles& b) noexcept {
+  const DoubleDouble x = two_product(a[0].high, b[0].high), y = two_product(a[1].high, b[1].high),
+                     z = two_product(a[2].high, b[2].high);
+  const DoubleDouble first = two_sum(x.high, y.high), second = two_sum(first.high, z.high);
+  double low = (x.low + y.low) + (z.low + first.low) + second.low;
+  for (std::size_t k = 0; k < 3; ++k) low += a[k].high * b[k].low + a[k].low * b[k].high;
+  return two_sum(second.high, low);
+}
+DoubleDoubles loose_cross(const DoubleDoubles& a, const DoubleDoubles& b) noexcept {
+  const auto minor = [&](std::size_t i, std::size_t j) {
+    const DoubleDouble x = two_product(a[i].high, b[j].high), y = two_product(a[j].high, b[i].high);
+    const DoubleDouble sum = two_sum(x.high, -y.high);
+    const double low =
+        (a[i].high * b[j].low + a[i].low * b[j].high) - (a[j].high * b[i].low + a[j].low * b[i].high);
+    return two_sum(sum.high, (sum.low + (x.low - y.low)) + low);
+  };
+  return {minor(1, 2), minor(2, 0), minor(0, 1)};
+}
+/// a + part b
+DoubleDoubles loose_sum(const DoubleDoubles& a, double part, const DoubleDoubles& b) noexcept {
+  DoubleDoubles result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const DoubleDouble product = two_product(part, b[k].high), sum = two_sum(a[k].high, product.high);
+    result[k] = two_sum(sum.high, (sum.low + a[k].low) + (product.low + part * b[k].low));
+  }
+  return result;
 }
 
-Vec3 rounded(const double_double::Vector& v) noexcept { return {v[0].high, v[1].high, v[2].high}; }
+Vec3 rounded(const DoubleDoubles& v) noexcept { return {v[0].high, v[1].high, v[2].high}; }
 
 /// Returns the vector from the edge between two corners to the point at `to_first` from the one and
 /// `to_second` from the other, measured from the nearer one.
@@ -152,10 +177,13 @@ PathGap::Sample PathGap::at(double fraction) const noexcept {
           0};
 }
 
-bool PathGap::surely_touches(double fraction, const Sample& there, double more) const noexcept {
+bool PathGap::reaches_foot(const Sample& there, double more) const noexcept {
   const double within = radius_ - error_;
-  // The foot found there is a point of the triangle.
-  if (within > 0 && (there.offset + more * path_).squaredNorm() < within * within) return true;
+  return within > 0 && (there.offset + more * path_).squaredNorm() < within * within;
+}
+
+bool PathGap::surely_touches(double fraction, const Sample& there, double more) const noexcept {
+  if (reaches_foot(there, more)) return true;
   const Sample then = at(fraction + more);
   if (then.gap < -then.error) return true;
   // Over the face all the path between the two, and through it.
@@ -203,31 +231,31 @@ std::optional<PathGap::Nearest> PathGap::nearest_feature(const Corners& to) cons
 
 /// The height less the radius, times twice the area.
 PathGap::Approach PathGap::approach_to_face(double fraction) const noexcept {
-  using namespace double_double;
   const auto& [a, b, c] = triangle_.corner;
-  const Vector normal = cross(difference(b, a), difference(c, a));
-  const DoubleDouble height = dot(normal, position_from(sweep_, fraction, a));
-  const DoubleDouble length = square_root(dot(normal, normal));
+  const DoubleDoubles to =
+      loose_sum(difference(sweep_.from, a), fraction, difference(sweep_.to, sweep_.from));
+  const DoubleDoubles normal = loose_cross(difference(b, a), difference(c, a));
+  const DoubleDouble height = loose_dot(normal, to), length = square_root(loose_dot(normal, normal));
   const double value = ((height.high < 0 ? -height : height) - length * DoubleDouble{radius_}).rounded();
   const double fall = (height.high < 0 ? 0.5 : -0.5) * rounded(normal).dot(path_);
-  return {value, 0x1p-91 * size_ * size_ * size_, fall,
-          length_ * (8 * unit_roundoff * length.high + 0x1p-96 * size_ * size_), 0};
+  const double fall_error = length_ * (8 * unit_roundoff * length.high + 0x1p-94 * size_ * size_);
+  return {value, 0x1p-89 * size_ * size_ * size_, fall, fall_error, 0};
 }
 
 /// The squared distance less the squared radius.
 PathGap::Approach PathGap::approach_to(Nearest feature, double fraction) const noexcept {
-  using namespace double_double;
   if (feature.corners == 3) return approach_to_face(fraction);
   const std::size_t i = feature.first;
-  Vector offset = position_from(sweep_, fraction, triangle_.corner[i]);
+  const Vec3& corner = triangle_.corner[i];
+  DoubleDoubles offset =
+      loose_sum(difference(sweep_.from, corner), fraction, difference(sweep_.to, sweep_.from));
   Vec3 across = path_;
   if (feature.corners == 2) {
-    const Vector edge = difference(triangle_.corner[i == 2 ? 0 : i + 1], triangle_.corner[i]);
-    const DoubleDouble part{rounded(offset).dot(edge_[i]) / squared_edge_[i]};
-    for (std::size_t k = 0; k < 3; ++k) offset[k] = offset[k] - part * edge[k];
+    const double part = rounded(offset).dot(edge_[i]) / squared_edge_[i];
+    offset = loose_sum(offset, -part, difference(triangle_.corner[i == 2 ? 0 : i + 1], corner));
     across -= path_.dot(edge_[i]) / squared_edge_[i] * edge_[i];
   }
-  const double value = (dot(offset, offset) - two_product(radius_, radius_)).rounded();
+  const double value = (loose_dot(offset, offset) - two_product(radius_, radius_)).rounded();
   return {value, 0x1p-91 * size_ * size_, -rounded(offset).dot(path_), error_ * length_,
           across.squaredNorm()};
 }

@@ -39,6 +39,8 @@ class PathGap {
     const double fall = there.slope_error - there.slope;
     return fall < length_ ? fall : length_;
   }
+  /// Is it known that the ball has come to the foot found there, a point of the triangle, `more` later?
+  bool reaches_foot(const Sample& there, double more) const noexcept;
   /// Is it known that ball and triangle touch at or before `fraction` + `more`, seen from what was found at
   /// `fraction`? May say no where they do.
   bool surely_touches(double fraction, const Sample& there, double more) const noexcept;
@@ -53,6 +55,8 @@ class PathGap {
   std::optional<double> precise_touch(double fraction) const noexcept;
 
   double max_error() const noexcept { return error_; }
+  /// Bounds the gap where a fraction is early by 2^-50.
+  double max_early() const noexcept { return 0x1p-49 * length_; }
   /// A bound on all lengths: finite, and their fourth powers are in range.
   bool is_defined() const noexcept { return defined_; }
   double unit() const noexcept { return unit_; }

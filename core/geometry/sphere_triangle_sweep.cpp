@@ -64,7 +64,7 @@ class FirstTouch {
   };
   static Crossing crossing_of(const Reached& first, const Reached& second) noexcept;
   Reached advance(const Reached& reached) const noexcept;
-  std::optional<TouchBounds> conclude(const Reached& reached) noexcept;
+  std::optional<TouchBounds> conclude(const Reached& reached) const noexcept;
   std::optional<TouchBounds> decide(const Reached& reached) noexcept;
   double halve(double low, double high) noexcept;
 
@@ -106,11 +106,17 @@ FirstTouch::Crossing FirstTouch::crossing_of(const Reached& first, const Reached
   return {first.fraction + part, low + fall * part};
 }
 
-/// Nothing touches before there, and it is near enough: is it a hit?
-std::optional<TouchBounds> FirstTouch::conclude(const Reached& reached) noexcept {
-  const double left = 1 - reached.fraction;
-  const double more = std::min((reached.here.gap + 2 * gap_.max_error()) / -reached.here.slope, left);
-  if (!(more >= 0 && gap_.surely_touches(reached.fraction, reached.here, more))) return decide(reached);
+/// Nothing touches before there. Returns bounds where it is near enough and surely a hit.
+std::optional<TouchBounds> FirstTouch::conclude(const Reached& reached) const noexcept {
+  // Curved as it is, the gap falls to zero within so much more than it would if straight.
+  constexpr double curved = 1 + 0x1p-10, near = 0x1p-10;
+  const PathGap::Sample& here = reached.here;
+  const double more =
+      std::min((here.gap + 2 * gap_.max_error()) / -here.slope * curved, 1 - reached.fraction);
+  const bool is_sure =
+      more >= 0 && (here.gap <= 2 * here.error ? gap_.surely_touches(reached.fraction, here, more)
+                                               : more < near && gap_.reaches_foot(here, more));
+  if (!is_sure) return std::nullopt;
   return TouchBounds{std::max(reached.fraction, smallest), std::min(reached.fraction + more + epsilon, 1.0)};
 }
 
@@ -155,9 +161,10 @@ std::optional<TouchBounds> FirstTouch::find(double limit) noexcept {
     if (reached.here.surely_rises() || stays_above(0, reached, 1) || stays_apart(reached))
       return std::nullopt;
     if (reached.fraction >= 1 && reached.here.gap > reached.here.error) return std::nullopt;
-    // Up to the limit the gap is more than at any fraction told: 2 errors as computed, so 3.
-    if (stays_above(3 * gap_.max_error(), reached, limit)) return std::nullopt;
-    if (reached.here.gap <= 2 * reached.here.error) return conclude(reached);
+    // Up to the limit the gap is more than at the fraction told.
+    if (stays_above(gap_.max_early(), reached, limit)) return std::nullopt;
+    if (const std::optional<TouchBounds> bounds = conclude(reached)) return bounds;
+    if (reached.here.gap <= 2 * reached.here.error) return decide(reached);
     const Reached next = advance(reached);
     if (!(next.fraction > reached.fraction)) break;
     reached = next;
