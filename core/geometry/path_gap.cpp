@@ -12,7 +12,7 @@
 namespace touchmark {
 namespace {
 
-using double_double::difference;
+using double_double::cross, double_double::difference;
 using DoubleDoubles = double_double::Vector;
 
 /// Bounds by how much the direction from the foot is off, for a distance that is off by `error`:
@@ -35,8 +35,8 @@ double first_root(double value, double fall, double curve, double raised) noexce
   return value / (fall + std::sqrt(root));
 }
 
-/// Three sums in double-double that are added up at the end: each is off by less than 2^-100 of the sum of
-/// all magnitudes, and costs half of what operators do.
+/// Sums in double-double that are added up at the end: each is off by less than 2^-100 of the sum of all
+/// magnitudes, and costs half of what operators do.
 DoubleDouble loose_dot(const DoubleDoubles& a, const DoubleDoubles& b) noexcept {
   const DoubleDouble x = two_product(a[0].high, b[0].high), y = two_product(a[1].high, b[1].high),
                      z = two_product(a[2].high, b[2].high);
@@ -44,16 +44,6 @@ DoubleDouble loose_dot(const DoubleDoubles& a, const DoubleDoubles& b) noexcept 
   double low = (x.low + y.low) + (z.low + first.low) + second.low;
   for (std::size_t k = 0; k < 3; ++k) low += a[k].high * b[k].low + a[k].low * b[k].high;
   return two_sum(second.high, low);
-}
-DoubleDoubles loose_cross(const DoubleDoubles& a, const DoubleDoubles& b) noexcept {
-  const auto minor = [&](std::size_t i, std::size_t j) {
-    const DoubleDouble x = two_product(a[i].high, b[j].high), y = two_product(a[j].high, b[i].high);
-    const DoubleDouble sum = two_sum(x.high, -y.high);
-    const double low =
-        (a[i].high * b[j].low + a[i].low * b[j].high) - (a[j].high * b[i].low + a[j].low * b[i].high);
-    return two_sum(sum.high, (sum.low + (x.low - y.low)) + low);
-  };
-  return {minor(1, 2), minor(2, 0), minor(0, 1)};
 }
 /// a + part b
 DoubleDoubles loose_sum(const DoubleDoubles& a, double part, const DoubleDoubles& b) noexcept {
@@ -229,35 +219,31 @@ std::optional<PathGap::Nearest> PathGap::nearest_feature(const Corners& to) cons
   return std::nullopt;
 }
 
-/// The height less the radius, times twice the area.
-PathGap::Approach PathGap::approach_to_face(double fraction) const noexcept {
-  const auto& [a, b, c] = triangle_.corner;
-  const DoubleDoubles to =
-      loose_sum(difference(sweep_.from, a), fraction, difference(sweep_.to, sweep_.from));
-  const DoubleDoubles normal = loose_cross(difference(b, a), difference(c, a));
-  const DoubleDouble height = loose_dot(normal, to), length = square_root(loose_dot(normal, normal));
-  const double value = ((height.high < 0 ? -height : height) - length * DoubleDouble{radius_}).rounded();
-  const double fall = (height.high < 0 ? 0.5 : -0.5) * rounded(normal).dot(path_);
-  const double fall_error = length_ * (8 * unit_roundoff * length.high + 0x1p-94 * size_ * size_);
-  return {value, 0x1p-89 * size_ * size_ * size_, fall, fall_error, 0};
-}
-
-/// The squared distance less the squared radius.
+/// Over the face the height less the radius, times twice the area. Else the squared distance less the squared
+/// radius.
 PathGap::Approach PathGap::approach_to(Nearest feature, double fraction) const noexcept {
-  if (feature.corners == 3) return approach_to_face(fraction);
   const std::size_t i = feature.first;
+  const auto& [a, b, c] = triangle_.corner;
   const Vec3& corner = triangle_.corner[i];
   DoubleDoubles offset =
       loose_sum(difference(sweep_.from, corner), fraction, difference(sweep_.to, sweep_.from));
+  if (feature.corners == 3) {
+    const DoubleDoubles normal = cross(difference(b, a), difference(c, a));
+    const DoubleDouble height = loose_dot(normal, offset), length = square_root(loose_dot(normal, normal));
+    const double value = ((height.high < 0 ? -height : height) - length * DoubleDouble{radius_}).rounded();
+    const double fall = (height.high < 0 ? 0.5 : -0.5) * rounded(normal).dot(path_);
+    const double fall_error = length_ * (8 * unit_roundoff * length.high + 0x1p-94 * size_ * size_);
+    return {value, 0x1p-89 * size_ * size_ * size_, fall, fall_error, 0};
+  }
   Vec3 across = path_;
   if (feature.corners == 2) {
     const double part = rounded(offset).dot(edge_[i]) / squared_edge_[i];
     offset = loose_sum(offset, -part, difference(triangle_.corner[i == 2 ? 0 : i + 1], corner));
     across -= path_.dot(edge_[i]) / squared_edge_[i] * edge_[i];
   }
-  const double value = (loose_dot(offset, offset) - two_product(radius_, radius_)).rounded();
-  return {value, 0x1p-91 * size_ * size_, -rounded(offset).dot(path_), error_ * length_,
-          across.squaredNorm()};
+  const double value = (loose_dot(offset, offset) - two_product(radius_, radius_)).rounded(),
+               square = size_ * size_;
+  return {value, 0x1p-91 * square, -rounded(offset).dot(path_), error_ * length_, across.squaredNorm()};
 }
 
 std::optional<double> PathGap::precise_touch(double fraction) const noexcept {
@@ -276,7 +262,9 @@ std::optional<double> PathGap::precise_touch(double fraction) const noexcept {
     const double most =
         first_root(to.value + to.value_error, to.fall - to.fall_error, to.curve + curve_error, -margin) *
         (1 + margin);
-    if (!(most <= 1) || (radius_ > 0 && !is_nearest(*feature, corners_to(fraction + most)))) break;
+    // Tests are off by as much more as the place is beyond the path's end.
+    if (!(fraction + most < 1.125) || (radius_ > 0 && !is_nearest(*feature, corners_to(fraction + most))))
+      break;
     const double next = std::max(fraction, fraction + (least * (1 - margin) - unit_roundoff));
     if (fraction + most - next <= narrow) return next;
     fraction = next;

@@ -84,7 +84,6 @@ class PathGap {
   bool is_over_face(const Corners& to) const noexcept;
   bool is_nearest(Nearest feature, const Corners& to) const noexcept;
   std::optional<Nearest> nearest_feature(const Corners& to) const noexcept;
-  Approach approach_to_face(double fraction) const noexcept;
   Approach approach_to(Nearest feature, double fraction) const noexcept;
 
   const PreparedTriangle& triangle_;

@@ -6,6 +6,7 @@
 
 #include "core/exact/distance_predicates.h"
 #include "core/exact/orientation.h"
+#include "core/float_limits.h"
 #include "core/geometry/path_gap.h"
 
 namespace touchmark {
@@ -195,11 +196,10 @@ double touch_fraction(const PreparedTriangle& triangle, const Sweep& sweep, cons
                                     : bounds.first;
 }
 
-std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit,
-                                std::uint64_t& exact_decisions) noexcept {
-  const std::optional<TouchBounds> bounds = touch_bounds(triangle, sweep, limit, exact_decisions);
-  if (!bounds) return std::nullopt;
-  const double fraction = touch_fraction(triangle, sweep, *bounds, exact_decisions);
+std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit) noexcept {
+  std::uint64_t uncounted = 0;
+  const std::optional<TouchBounds> bounds = touch_bounds(triangle, sweep, limit, uncounted);
+  const double fraction = bounds ? touch_fraction(triangle, sweep, *bounds, uncounted) : infinity;
   return fraction <= limit ? std::optional(fraction) : std::nullopt;
 }
 

@@ -38,13 +38,7 @@ double touch_fraction(const PreparedTriangle& triangle, const Sweep& sweep, cons
                       std::uint64_t& exact_decisions) noexcept;
 
 /// The same, where it is at most the limit.
-std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit,
-                                std::uint64_t& exact_decisions) noexcept;
-inline std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep,
-                                       double limit) noexcept {
-  std::uint64_t uncounted = 0;
-  return sweep_hit(triangle, sweep, limit, uncounted);
-}
+std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit) noexcept;
 
 /// Does the plane with this unit normal surely keep ball and triangle apart up to a fraction of the path: by
 /// so much that no fraction up to there is told for it? Costs a tenth of sweep_hit.

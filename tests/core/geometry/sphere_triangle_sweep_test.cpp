@@ -122,19 +122,22 @@ TEST(SphereTriangleSweep, ABarePointThatSlidesOverAPlaneMeetsItsEndAloneAndTakes
   std::mt19937_64 random(3);
   const auto whole = [&] { return static_cast<double>(random() % 33) / 4 - 2; };  // -2 to 6 by quarters
   std::uint64_t decisions = 0, hits = 0, on_the_border = 0;
+  const auto hit_of = [&](const Vec3& start, const Vec3& end) {
+    return touch_bounds(triangle, {start, end, 0}, 1, decisions);
+  };
   for (int i = 0; i < 20000; ++i) {
     const double height = std::ldexp(random() % 2 == 0 ? 1 : -1, -50 + static_cast<int>(random() % 8));
     const Vec3 from(whole(), whole(), height), on_it(whole(), whole(), 0),
         above(on_it.x(), on_it.y(), height / 3);
-    EXPECT_FALSE(sweep_hit(triangle, {from, above, 0}, 1, decisions)) << i;
-    EXPECT_FALSE(sweep_hit(triangle, {above, from, 0}, 1, decisions)) << i;
+    EXPECT_FALSE(hit_of(from, above)) << i;
+    EXPECT_FALSE(hit_of(above, from)) << i;
     const bool inside = on_it.x() >= 0 && on_it.y() >= 0 && on_it.x() + on_it.y() <= 4;
     on_the_border += inside && (on_it.x() == 0 || on_it.y() == 0 || on_it.x() + on_it.y() == 4) ? 1 : 0;
     hits += inside ? 1 : 0;
-    EXPECT_EQ(sweep_hit(triangle, {from, on_it, 0}, 1, decisions).has_value(), inside) << i;
-    const auto leaves = sweep_hit(triangle, {on_it, from, 0}, 1, decisions);
+    EXPECT_EQ(hit_of(from, on_it).has_value(), inside) << i;
+    const auto leaves = hit_of(on_it, from);
     EXPECT_EQ(leaves.has_value(), inside) << i;
-    EXPECT_TRUE(!leaves || *leaves == 0) << i;
+    EXPECT_TRUE(!leaves || leaves->last == 0) << i;
   }
   EXPECT_GT(on_the_border, 100U);
   EXPECT_LE(decisions, 4 * hits);
@@ -217,7 +220,7 @@ Sweep grazing(RandomCases& random, const PreparedTriangle& t, int feature, doubl
 TEST(SphereTriangleSweep, TheFractionIsNeverLateAndEarlyByLessThanFourUnitsInTheLastPlaceOfOne) {
   RandomCases random(13);
   int hits = 0, grazes = 0;
-  for (int trial = 0; trial < 30000; ++trial) {
+  for (int trial = 0; trial < 12000; ++trial) {
     const double scale = std::ldexp(1, trial % 7 * 40 - 120), offset = trial % 5 * trial % 5 * 1e4;
     const Vec3 far = offset * random.point();
     const auto placed = [&](const Vec3& point) -> Vec3 { return scale * (point + far); };
@@ -241,8 +244,8 @@ TEST(SphereTriangleSweep, TheFractionIsNeverLateAndEarlyByLessThanFourUnitsInThe
     ASSERT_FALSE(order(*hit) < 0) << trial << " is late";
     ASSERT_TRUE(order(std::min(*hit + max_early, 1.0)) <= 0) << trial << " is early";
   }
-  EXPECT_GT(hits, 5000);
-  EXPECT_GT(grazes, 1000);
+  EXPECT_GT(hits, 4000);
+  EXPECT_GT(grazes, 500);
 }
 
 TEST(SphereTriangleSweep, TheLimitDoesNotChangeWhereItHits) {
