@@ -37,7 +37,7 @@ std::optional<TouchBounds> touch_bounds(const PreparedTriangle& triangle, const 
 double touch_fraction(const PreparedTriangle& triangle, const Sweep& sweep, const TouchBounds& bounds,
                       std::uint64_t& exact_decisions) noexcept;
 
-/// The same, where it is at most the limit.
+/// Returns touch_fraction where it is at most the limit, else nothing.
 std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit) noexcept;
 
 /// Does the plane with this unit normal surely keep ball and triangle apart up to a fraction of the path: by
