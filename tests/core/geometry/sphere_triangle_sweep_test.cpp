@@ -8,6 +8,7 @@
 
 #include "bench/oracle/exact/exact_distance.h"
 #include "core/detector.h"
+#include "core/search/first_touch.h"
 
 namespace touchmark {
 namespace {
@@ -246,6 +247,33 @@ TEST(SphereTriangleSweep, TheFractionIsNeverLateAndEarlyByLessThanFourUnitsInThe
   }
   EXPECT_GT(hits, 4000);
   EXPECT_GT(grazes, 500);
+}
+
+/// A ball grazes the tip of one triangle, and meets the other head on within what doubles know of that touch.
+TEST(SphereTriangleSweep, OfTwoTouchesWithinRoundingTheFirstCountsInEitherOrder) {
+  const Sweep sweep{{-0.5, 0, 0}, {0.5, 0, 0}, 1};
+  std::uint64_t decisions = 0;
+  int told_apart = 0;
+  for (int depth = 30; depth < 53; ++depth) {
+    const PreparedTriangle grazed = prepare({0, 1 - std::ldexp(1, -depth), 0}, {-1, 3, 0}, {1, 3, 0}, 0);
+    const auto bounds = touch_bounds(grazed, sweep, 1, decisions);
+    ASSERT_TRUE(bounds) << depth;
+    const double at = touch_fraction(grazed, sweep, *bounds, decisions);
+    for (const double wall_at : {0.5 * (bounds->first + at), 0.5 * (at + bounds->last)}) {
+      if (std::abs(wall_at - at) < 0x1p-40) continue;
+      ++told_apart;
+      const double x = wall_at + 0.5;
+      const PreparedTriangle wall = prepare({x, -5, -5}, {x, 5, -5}, {x, 0, 5}, 1);
+      for (const bool wall_is_last : {false, true}) {
+        FirstTouch first(sweep);
+        first.consider(wall_is_last ? grazed : wall, decisions);
+        first.consider(wall_is_last ? wall : grazed, decisions);
+        EXPECT_EQ(first.triangle().index, wall_at < at ? 1U : 0U) << depth;
+        EXPECT_NEAR(first.fraction(), std::min(wall_at, at), 2 * max_early) << depth;
+      }
+    }
+  }
+  EXPECT_GT(told_apart, 5);
 }
 
 TEST(SphereTriangleSweep, TheLimitDoesNotChangeWhereItHits) {
