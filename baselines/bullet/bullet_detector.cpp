@@ -322,10 +322,9 @@ struct BulletDetector::Queries {
     FirstTouch first(sweep);
     model.near(sweep.from, sweep.to, sweep.radius, [&](std::uint32_t triangle) {
       ++session.work.triangles;
-      first.consider(model.triangles[triangle], triangle, session.work.exact_decisions);
+      first.consider(model.triangles[triangle], session.work.exact_decisions);
     });
-    return impact_of(first, model.triangles, model.ids, false,
-                     [&](double reach) { return nearest(sweep.from, reach); });
+    return impact_of(first, model.ids, false, [&](double reach) { return nearest(sweep.from, reach); });
   }
 };
 

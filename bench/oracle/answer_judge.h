@@ -24,6 +24,11 @@ bool well_formed(const workload::Answer& answer, const Reported& reported) noexc
 
 enum class Verdict { right, unresolved, wrong };
 
+/// Bounds the error of a distance on a path: 384 u S, as E17 allows thrice.
+inline double max_path_error(double start_difference, double largest_path) noexcept {
+  return 192 * std::numeric_limits<double>::epsilon() * (start_difference + largest_path);
+}
+
 /// Charges single answers about one mesh or scene by one contestant's declared accuracy.
 class AnswerJudge {
  public:

@@ -32,8 +32,8 @@ ErrorCounts total(std::size_t size, unsigned threads, Charges* charges, const Ju
 }
 
 Accuracy of_sweeps(Accuracy accuracy) {
-  // max_early_gap, where the path's start is within M of the triangle and the path's coordinates within 2 M.
-  const double least = accuracy.guarantee == Guarantee::exact ? max_early_gap(1, 2) : kernel_relative_error;
+  // Where the path's start is within M of the triangle and the path's coordinates within 2 M.
+  const double least = accuracy.guarantee == Guarantee::exact ? max_path_error(1, 2) : kernel_relative_error;
   accuracy.relative = std::max(accuracy.relative, least);
   return accuracy;
 }

@@ -46,14 +46,14 @@ ErrorCounts judge_one(const Reference& reference, const SweepGroundTruth& truth,
 
 /// Judges `sweep`. Of a contestant that decides exactly whether it hits is judged without tolerance: the path
 /// comes within the radius or it does not; at fraction 0 it has to touch at the start, at another one it may
-/// not touch before (missed, being late), and there it may be off the radius by no more than max_early_gap
-/// (core/geometry/sphere_triangle_sweep.h) of the triangle named. All of these are decided in whole numbers,
-/// on the path itself and not on positions rounded to points.
+/// not touch before (missed, being late), and it has to touch at most 2^-50 of its path later. All of these
+/// are decided in whole numbers, on the path itself and not on positions rounded to points. In a scene it may
+/// be off the radius there by no more than max_path_error of the triangle named.
 ///
 /// The hit of any other contestant is right when the sweep hits, the centre at the reported fraction is the
 /// radius away from the mesh (at fraction 0: at most that), and was not nearer before; all within the
 /// accuracy plus the rounding of a position on the path. For all contestants the contact is judged as
-/// `nearest` there. The accuracy's relative part is kernel_relative_error at least, and max_early_gap of
+/// `nearest` there. The accuracy's relative part is kernel_relative_error at least, and max_path_error of
 /// those who claim exactness: no sweep claims better.
 ErrorCounts judge(const Oracle& oracle, std::span<const SweepGroundTruth> truths,
                   std::span<const Sweep> sweeps, std::span<const workload::Answer> answers,

@@ -242,22 +242,20 @@ bool Oracle::segment_comes(const Vec3& from, const Vec3& to, double radius, bool
 }
 
 template <class Holds>
-bool Oracle::any_near(const Sweep& sweep, double fraction, bool only_end, double radius,
-                      const Holds& holds) const {
-  if (!sweep.from.allFinite() || !sweep.to.allFinite() || !(radius >= 0)) return false;
+bool Oracle::any_near(const Sweep& sweep, double fraction, const Holds& holds) const {
+  if (!sweep.from.allFinite() || !sweep.to.allFinite() || !(sweep.radius >= 0)) return false;
   const Vec3 end = (1 - fraction) * sweep.from + fraction * sweep.to;
-  const Vec3& begin = only_end ? end : sweep.from;
   // Four roundings a coordinate, of what is no larger than the ends; twice that.
   const double rounding = 8 * std::numeric_limits<double>::epsilon() *
                           (sweep.from.cwiseAbs().maxCoeff() + sweep.to.cwiseAbs().maxCoeff());
-  const double reach = (radius + rounding) * (1 + 4 * std::numeric_limits<double>::epsilon());
+  const double reach = (sweep.radius + rounding) * (1 + 4 * std::numeric_limits<double>::epsilon());
   bool found = false;
   double limit = reach;
-  structure_->tree.visit([&](const Box& box) { return distance_below(box, begin, end); }, limit,
+  structure_->tree.visit([&](const Box& box) { return distance_below(box, sweep.from, end); }, limit,
                          [&](std::uint32_t index) {
                            if (found) return;
                            const Triangle triangle = triangle_of(mesh(), index);
-                           if (segment_distance_interval(begin, end, triangle).lo > reach) return;
+                           if (segment_distance_interval(sweep.from, end, triangle).lo > reach) return;
                            found = holds(triangle);
                            if (found) limit = -1;  // nothing more to visit
                          });
@@ -274,12 +272,13 @@ bool Oracle::touches_before(const Sweep& sweep, double fraction) const {
     return compare_distance_on_path(from, to, fraction, triangle, radius) != 0 ||
            compare_part_distance(from, to, std::nextafter(fraction, 0), triangle, radius) <= 0;
   };
-  return fraction > 0 && any_near(sweep, fraction, false, radius, touched);
+  return fraction > 0 && any_near(sweep, fraction, touched);
 }
 
-bool Oracle::within_on_path(const Sweep& sweep, double fraction, double radius) const {
-  return any_near(sweep, fraction, true, radius, [&](const Triangle& triangle) {
-    return compare_distance_on_path(sweep.from, sweep.to, fraction, triangle, radius) <= 0;
+bool Oracle::touches_soon_after(const Sweep& sweep, double fraction, double /*radius*/) const {
+  const double end = std::min(fraction + 0x1p-50, 1.0);
+  return any_near(sweep, end, [&](const Triangle& triangle) {
+    return compare_part_distance(sweep.from, sweep.to, end, triangle, sweep.radius) <= 0;
   });
 }
 

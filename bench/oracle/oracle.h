@@ -51,9 +51,8 @@ class Oracle : public Reference {
   /// from) as they are, none rounded. Exact likewise; but a ball that slides at the very radius since less
   /// than the fraction's last digit ago is taken to touch there.
   bool touches_before(const Sweep& sweep, double fraction) const override;
-  /// Returns true if the point at that fraction of the path, not rounded, is within `radius` of the mesh.
-  /// Exact likewise.
-  bool within_on_path(const Sweep& sweep, double fraction, double radius) const override;
+  /// Returns true if the sweep touches at most 2^-50 of its path later, whatever `radius` is. Exact likewise.
+  bool touches_soon_after(const Sweep& sweep, double fraction, double radius) const override;
 
   /// Returns true if the segment passes through a triangle so well that no displacement of either by less
   /// than `margin` could part them: the ends and the triangle's edges keep more than `margin` away. Exact
@@ -81,10 +80,10 @@ class Oracle : public Reference {
  private:
   struct Structure;
   bool segment_comes(const Vec3& from, const Vec3& to, double radius, bool nearer) const;
-  /// Returns true if there is one, of the triangles near to the path up to the fraction (or only to its end),
-  /// of which that holds.
+  /// Returns true if there is one, of the triangles near to the path up to the fraction, of
+  /// which that holds.
   template <class Holds>
-  bool any_near(const Sweep& sweep, double fraction, bool only_end, double radius, const Holds& holds) const;
+  bool any_near(const Sweep& sweep, double fraction, const Holds& holds) const;
 
   std::unique_ptr<const Structure> structure_;
 };

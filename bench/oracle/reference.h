@@ -59,8 +59,9 @@ class Reference {
   /// from) as they are, none rounded; but a ball that slides at the very radius since less than the
   /// fraction's last digit ago is taken to touch there.
   virtual bool touches_before(const Sweep& sweep, double fraction) const = 0;
-  /// Returns true if the point at that fraction of the path, not rounded, is within `radius`.
-  virtual bool within_on_path(const Sweep& sweep, double fraction, double radius) const = 0;
+  /// Returns true if the sweep touches so soon after that fraction as E16 promises of a mesh; in a scene,
+  /// whose images double rounds, if the point there is within `radius`.
+  virtual bool touches_soon_after(const Sweep& sweep, double fraction, double radius) const = 0;
   /// Returns true if the segment passes through a triangle so well that no displacement of either by less
   /// than `margin` could part them: the ends and the triangle's edges keep more than `margin` away. (Through
   /// the edge between two triangles is not through either.)

@@ -211,7 +211,7 @@ bool SceneOracle::touches_before(const Sweep& sweep, double fraction) const {
          });
 }
 
-bool SceneOracle::within_on_path(const Sweep& sweep, double fraction, double radius) const {
+bool SceneOracle::touches_soon_after(const Sweep& sweep, double fraction, double radius) const {
   return structure_->any_on_path(sweep, fraction, true, radius, [&](const PlacedTriangle& one) {
     return is_within_on_path(sweep, fraction, one, radius);
   });

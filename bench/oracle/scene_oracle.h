@@ -42,7 +42,7 @@ class SceneOracle final : public Reference {
   bool segment_within(const Vec3& from, const Vec3& to, double radius) const override;
   bool segment_nearer(const Vec3& from, const Vec3& to, double radius) const override;
   bool touches_before(const Sweep& sweep, double fraction) const override;
-  bool within_on_path(const Sweep& sweep, double fraction, double radius) const override;
+  bool touches_soon_after(const Sweep& sweep, double fraction, double radius) const override;
   bool surely_crosses(const Vec3& from, const Vec3& to, double margin) const override;
   /// Nothing: a scene is not asked for sides.
   std::optional<Side> side(const Vec3&) const override { return std::nullopt; }

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "bench/oracle/answer_judge.h"
-#include "core/geometry/sphere_triangle_sweep.h"
 
 namespace touchmark::bench::oracle {
 
@@ -53,13 +52,14 @@ void AnswerJudge::sweep(const SweepGroundTruth& truth, const Sweep& sweep, const
   }
 }
 
-/// By how much the distance at the fraction told may exceed the radius, of the triangle named.
+/// By how much the distance told at a fraction may differ from the radius, for the triangle named; in a scene
+/// the true one, too.
 double AnswerJudge::sweep_gap(const Sweep& sweep, const workload::Answer& answer) const {
   double largest = 0;
   const auto [begin, end] = oracle_.named_by(answer);
   for (std::size_t i = begin; i < end; ++i)
     largest = std::max(largest, oracle_.largest_difference(sweep.from, static_cast<std::uint32_t>(i)));
-  return max_early_gap(largest, (sweep.to - sweep.from).cwiseAbs().maxCoeff());
+  return max_path_error(largest, (sweep.to - sweep.from).cwiseAbs().maxCoeff());
 }
 
 /// Nothing is excused.
@@ -81,7 +81,7 @@ void AnswerJudge::exact_sweep(const SweepGroundTruth& truth, const Sweep& sweep,
     ++counts.missed;
     return;
   }
-  if (!at_start && !oracle_.within_on_path(sweep, answer.fraction, raised(sweep.radius + early))) {
+  if (!at_start && !oracle_.touches_soon_after(sweep, answer.fraction, raised(sweep.radius + early))) {
     ++counts.false_contacts;
     return;
   }

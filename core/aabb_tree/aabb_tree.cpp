@@ -235,10 +235,10 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       ++work.triangles;
-      first.consider(triangles_[i], i, work.exact_decisions);
+      first.consider(triangles_[i], work.exact_decisions);
     }
   }
-  return impact_of(first, triangles_, ids_, certified_, [&](double reach) {
+  return impact_of(first, ids_, certified_, [&](double reach) {
     return nearest({sweep.from, sweep.radius}, reach, session);
   });
 }

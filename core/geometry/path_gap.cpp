@@ -5,11 +5,15 @@
 
 #include <Eigen/Geometry>
 
+#include "core/exact/double_double_vector.h"
 #include "core/float_limits.h"
 #include "core/geometry/distance_error.h"
 
 namespace touchmark {
 namespace {
+
+using double_double::cross, double_double::difference;
+using DoubleDoubles = double_double::Vector;
 
 /// Bounds by how much the direction from the foot is off, for a distance that is off by `error`:
 /// docs/exactness.md, E17.
@@ -17,6 +21,41 @@ double direction_error(double distance, double error) noexcept {
   const double relative = error / distance;
   return relative < 0.25 ? 2 * std::sqrt(relative * (1 + relative)) : infinity;
 }
+
+/// Is the value beyond the margin times the root of the square?
+bool exceeds(double value, double margin, double square) noexcept {
+  return value > 0 && value * value > margin * margin * square;
+}
+
+/// Returns the first zero of value - 2 fall x + curve x^2, what is under the root raised by a part of it;
+/// infinite where there is none.
+double first_root(double value, double fall, double curve, double raised) noexcept {
+  const double root = (1 + raised) * fall * fall - curve * value;
+  if (!(fall > 0) || !(root >= 0)) return infinity;
+  return value / (fall + std::sqrt(root));
+}
+
+/// Sums in double-double that are added up at the end: each is off by less than 2^-100 of the sum of all
+/// magnitudes, and costs half of what operators do.
+DoubleDouble loose_dot(const DoubleDoubles& a, const DoubleDoubles& b) noexcept {
+  const DoubleDouble x = two_product(a[0].high, b[0].high), y = two_product(a[1].high, b[1].high),
+                     z = two_product(a[2].high, b[2].high);
+  const DoubleDouble first = two_sum(x.high, y.high), second = two_sum(first.high, z.high);
+  double low = (x.low + y.low) + (z.low + first.low) + second.low;
+  for (std::size_t k = 0; k < 3; ++k) low += a[k].high * b[k].low + a[k].low * b[k].high;
+  return two_sum(second.high, low);
+}
+/// a + part b
+DoubleDoubles loose_sum(const DoubleDoubles& a, double part, const DoubleDoubles& b) noexcept {
+  DoubleDoubles result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const DoubleDouble product = two_product(part, b[k].high), sum = two_sum(a[k].high, product.high);
+    result[k] = two_sum(sum.high, (sum.low + a[k].low) + (product.low + part * b[k].low));
+  }
+  return result;
+}
+
+Vec3 rounded(const DoubleDoubles& v) noexcept { return {v[0].high, v[1].high, v[2].high}; }
 
 /// Returns the vector from the edge between two corners to the point at `to_first` from the one and
 /// `to_second` from the other, measured from the nearer one.
@@ -32,7 +71,8 @@ Vec3 from_edge(const Vec3& to_first, const Vec3& to_second, double first, double
 
 }  // namespace
 
-PathGap::PathGap(const PreparedTriangle& triangle, const Sweep& sweep) noexcept : triangle_(triangle) {
+PathGap::PathGap(const PreparedTriangle& triangle, const Sweep& sweep) noexcept
+    : triangle_(triangle), sweep_(sweep) {
   measure(triangle, sweep);
   // Not so for a NaN or an infinity either.
   if (!(fourth_powers_fit(size_) && length_ < infinity)) measure_in_unit(triangle, sweep);
@@ -79,17 +119,22 @@ void PathGap::finish() noexcept {
   }
 }
 
+PathGap::Corners PathGap::corners_to(double fraction) const noexcept {
+  const Vec3 moved = fraction * path_;
+  return {start_[0] + moved, start_[1] + moved, start_[2] + moved};
+}
+
+bool PathGap::is_over_face(const Corners& to) const noexcept {
+  bool over_face = true;
+  for (std::size_t i = 0; i < 3 && over_face; ++i)
+    over_face = exceeds(to[i].dot(side_[i]), face_error_, squared_edge_[i]);
+  return over_face;
+}
+
 PathGap::Sample PathGap::at(double fraction) const noexcept {
   constexpr double slope_relative_error = 16 * unit_roundoff;
-  const Vec3 moved = fraction * path_;
-  const std::array<Vec3, 3> to = {start_[0] + moved, start_[1] + moved, start_[2] + moved};
-  const double squared_margin = face_error_ * face_error_;
-  bool over_face = true;
-  for (std::size_t i = 0; i < 3 && over_face; ++i) {
-    const double inside = to[i].dot(side_[i]);
-    over_face = inside > 0 && inside * inside > squared_margin * squared_edge_[i];
-  }
-  if (over_face) {
+  const Corners to = corners_to(fraction);
+  if (is_over_face(to)) {
     const double height = to[0].dot(triangle_.normal), distance = std::abs(height);
     const double rise = path_.dot(triangle_.normal);
     return {distance - radius_,
@@ -122,10 +167,13 @@ PathGap::Sample PathGap::at(double fraction) const noexcept {
           0};
 }
 
-bool PathGap::surely_touches(double fraction, const Sample& there, double more) const noexcept {
+bool PathGap::reaches_foot(const Sample& there, double more) const noexcept {
   const double within = radius_ - error_;
-  // The foot found there is a point of the triangle.
-  if (within > 0 && (there.offset + more * path_).squaredNorm() < within * within) return true;
+  return within > 0 && (there.offset + more * path_).squaredNorm() < within * within;
+}
+
+bool PathGap::surely_touches(double fraction, const Sample& there, double more) const noexcept {
+  if (reaches_foot(there, more)) return true;
   const Sample then = at(fraction + more);
   if (then.gap < -then.error) return true;
   // Over the face all the path between the two, and through it.
@@ -143,6 +191,85 @@ bool PathGap::stays_apart(double fraction, const Sample& there, double end) cons
   for (const Vec3& start : start_) lowest = std::min(lowest, normal.dot(start + moved));
   const double change = (end - fraction) * normal.dot(path_);
   return lowest + std::min(change, 0.0) - radius_ > apart_error_;
+}
+
+/// True if the feature's plane, line or point is as far as the triangle, but for what E16 allows. Places
+/// where this is so are a convex set.
+bool PathGap::is_nearest(Nearest feature, const Corners& to) const noexcept {
+  const auto beyond = [&](std::size_t edge, double value) {
+    return exceeds(value, face_error_, squared_edge_[edge]);
+  };
+  const std::size_t i = feature.first, next = i == 2 ? 0 : i + 1, last = i == 0 ? 2 : i - 1;
+  if (feature.corners == 3) return is_over_face(to);
+  const double along = -to[i].dot(edge_[i]);
+  if (feature.corners == 2)
+    return !beyond(i, along) && !beyond(i, to[next].dot(edge_[i])) && !beyond(i, to[i].dot(side_[i]));
+  return (beyond(i, along) || squared_edge_[i] == 0) &&
+         (beyond(last, to[i].dot(edge_[last])) || squared_edge_[last] == 0);
+}
+
+std::optional<PathGap::Nearest> PathGap::nearest_feature(const Corners& to) const noexcept {
+  if (is_nearest({3, 0}, to)) return Nearest{3, 0};
+  // A triangle without a normal is a segment only where two corners are one.
+  if (triangle_.normal.isZero(0) && std::ranges::find(squared_edge_, 0.0) == squared_edge_.end())
+    return std::nullopt;
+  for (const int corners : {2, 1})
+    for (std::size_t i = 0; i < 3; ++i)
+      if (is_nearest({corners, i}, to)) return Nearest{corners, i};
+  return std::nullopt;
+}
+
+/// Over the face the height less the radius, times twice the area. Else the squared distance less the squared
+/// radius.
+PathGap::Approach PathGap::approach_to(Nearest feature, double fraction) const noexcept {
+  const std::size_t i = feature.first;
+  const auto& [a, b, c] = triangle_.corner;
+  const Vec3& corner = triangle_.corner[i];
+  DoubleDoubles offset =
+      loose_sum(difference(sweep_.from, corner), fraction, difference(sweep_.to, sweep_.from));
+  if (feature.corners == 3) {
+    const DoubleDoubles normal = cross(difference(b, a), difference(c, a));
+    const DoubleDouble height = loose_dot(normal, offset), length = square_root(loose_dot(normal, normal));
+    const double value = ((height.high < 0 ? -height : height) - length * DoubleDouble{radius_}).rounded();
+    const double fall = (height.high < 0 ? 0.5 : -0.5) * rounded(normal).dot(path_);
+    const double fall_error = length_ * (8 * unit_roundoff * length.high + 0x1p-94 * size_ * size_);
+    return {value, 0x1p-89 * size_ * size_ * size_, fall, fall_error, 0};
+  }
+  Vec3 across = path_;
+  if (feature.corners == 2) {
+    const double part = rounded(offset).dot(edge_[i]) / squared_edge_[i];
+    offset = loose_sum(offset, -part, difference(triangle_.corner[i == 2 ? 0 : i + 1], corner));
+    across -= path_.dot(edge_[i]) / squared_edge_[i] * edge_[i];
+  }
+  const double value = (loose_dot(offset, offset) - two_product(radius_, radius_)).rounded(),
+               square = size_ * size_;
+  return {value, 0x1p-91 * square, -rounded(offset).dot(path_), error_ * length_, across.squaredNorm()};
+}
+
+std::optional<double> PathGap::precise_touch(double fraction) const noexcept {
+  constexpr int max_steps = 4;
+  constexpr double margin = 64 * unit_roundoff, narrow = 0x1.8p-51;
+  if (unit_ != 1) return std::nullopt;
+  for (int step = 0; step < max_steps; ++step) {
+    // A bare point that touches off the face's plane goes along it.
+    const std::optional<Nearest> feature =
+        radius_ == 0 ? Nearest{3, 0} : nearest_feature(corners_to(fraction));
+    if (!feature) break;
+    const Approach to = approach_to(*feature, fraction);
+    const double curve_error = margin * length_ * length_;
+    const double least = first_root(std::max(to.value - to.value_error, 0.0), to.fall + to.fall_error,
+                                    std::max(to.curve - curve_error, 0.0), margin);
+    const double most =
+        first_root(to.value + to.value_error, to.fall - to.fall_error, to.curve + curve_error, -margin) *
+        (1 + margin);
+    // Tests are off by as much more as the place is beyond the path's end.
+    if (!(fraction + most < 1.125) || (radius_ > 0 && !is_nearest(*feature, corners_to(fraction + most))))
+      break;
+    const double next = std::max(fraction, fraction + (least * (1 - margin) - unit_roundoff));
+    if (fraction + most - next <= narrow) return next;
+    fraction = next;
+  }
+  return std::nullopt;
 }
 
 Contact PathGap::contact(double fraction, TriangleId id) const noexcept {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "core/geometry/point_triangle.h"
 #include "core/probe.h"
@@ -15,7 +16,7 @@ namespace touchmark {
 
 class PathGap {
  public:
-  /// Finite coordinates, a radius of at least 0.
+  /// Finite coordinates, a radius of at least 0. Triangle and sweep must outlive this.
   PathGap(const PreparedTriangle& triangle, const Sweep& sweep) noexcept;
 
   /// What is known at a fraction of the path. Lengths are in `unit`.
@@ -38,6 +39,8 @@ class PathGap {
     const double fall = there.slope_error - there.slope;
     return fall < length_ ? fall : length_;
   }
+  /// Is it known that the ball has come to the foot found there, a point of the triangle, `more` later?
+  bool reaches_foot(const Sample& there, double more) const noexcept;
   /// Is it known that ball and triangle touch at or before `fraction` + `more`, seen from what was found at
   /// `fraction`? May say no where they do.
   bool surely_touches(double fraction, const Sample& there, double more) const noexcept;
@@ -47,7 +50,13 @@ class PathGap {
   /// that a slope alone does not tell this of a ball that slides along an edge.
   bool stays_apart(double fraction, const Sample& there, double end) const noexcept;
 
+  /// Returns a fraction that is not later than the first touch, and earlier by less than 2^-50. Nothing where
+  /// double-doubles do not tell it. The path touches, and not before `fraction`: docs/exactness.md, E16.
+  std::optional<double> precise_touch(double fraction) const noexcept;
+
   double max_error() const noexcept { return error_; }
+  /// Bounds the gap where a fraction is early by 2^-50.
+  double max_early() const noexcept { return 0x1p-49 * length_; }
   /// A bound on all lengths: finite, and their fourth powers are in range.
   bool is_defined() const noexcept { return defined_; }
   double unit() const noexcept { return unit_; }
@@ -55,16 +64,33 @@ class PathGap {
   Contact contact(double fraction, TriangleId id) const noexcept;
 
  private:
+  using Corners = std::array<Vec3, 3>;
+  /// What is nearest: the face, the edge from corner `first`, or that corner.
+  struct Nearest {
+    int corners;
+    std::size_t first;
+  };
+  /// value - 2 fall x + curve x^2, x fractions further on: zero where the ball touches a feature's plane,
+  /// line or point.
+  struct Approach {
+    double value, value_error, fall, fall_error, curve;
+  };
   /// Differences of these, times the unit.
   void measure(const PreparedTriangle& triangle, const Sweep& sweep) noexcept;
   [[gnu::noinline, gnu::cold]] void measure_in_unit(const PreparedTriangle& triangle,
                                                     const Sweep& sweep) noexcept;
   void finish() noexcept;
+  Corners corners_to(double fraction) const noexcept;
+  bool is_over_face(const Corners& to) const noexcept;
+  bool is_nearest(Nearest feature, const Corners& to) const noexcept;
+  std::optional<Nearest> nearest_feature(const Corners& to) const noexcept;
+  Approach approach_to(Nearest feature, double fraction) const noexcept;
 
   const PreparedTriangle& triangle_;
-  std::array<Vec3, 3> start_;  ///< from each corner to the path's start
-  std::array<Vec3, 3> edge_;   ///< from each corner to the next
-  std::array<Vec3, 3> side_;   ///< normal to the face and the edge, inward, as long as the edge
+  const Sweep& sweep_;
+  Corners start_;             ///< from each corner to the path's start
+  std::array<Vec3, 3> edge_;  ///< from each corner to the next
+  std::array<Vec3, 3> side_;  ///< normal to the face and the edge, inward, as long as the edge
   std::array<double, 3> squared_edge_;
   Vec3 path_;
   double radius_;

@@ -6,6 +6,7 @@
 
 #include "core/exact/distance_predicates.h"
 #include "core/exact/orientation.h"
+#include "core/float_limits.h"
 #include "core/geometry/path_gap.h"
 
 namespace touchmark {
@@ -25,7 +26,8 @@ class FirstTouch {
   FirstTouch(const PreparedTriangle& triangle, const Sweep& sweep, std::uint64_t& exact_decisions) noexcept
       : triangle_(triangle), sweep_(sweep), gap_(triangle, sweep), exact_decisions_(exact_decisions) {}
 
-  std::optional<double> find(double limit) noexcept;
+  std::optional<TouchBounds> find(double limit) noexcept;
+  double refine(const TouchBounds& bounds) noexcept;
 
  private:
   bool touches_at_start(const PathGap::Sample& start) noexcept {
@@ -63,8 +65,9 @@ class FirstTouch {
   };
   static Crossing crossing_of(const Reached& first, const Reached& second) noexcept;
   Reached advance(const Reached& reached) const noexcept;
-  std::optional<double> conclude(const Reached& reached) noexcept;
-  std::optional<double> halve(const Reached& reached) noexcept;
+  std::optional<TouchBounds> conclude(const Reached& reached) const noexcept;
+  std::optional<TouchBounds> decide(const Reached& reached) noexcept;
+  double halve(double low, double high) noexcept;
 
   const PreparedTriangle& triangle_;
   const Sweep& sweep_;
@@ -104,55 +107,70 @@ FirstTouch::Crossing FirstTouch::crossing_of(const Reached& first, const Reached
   return {first.fraction + part, low + fall * part};
 }
 
-/// Nothing touches before there, and it is near enough: is it a hit?
-std::optional<double> FirstTouch::conclude(const Reached& reached) noexcept {
-  const double left = 1 - reached.fraction;
-  const double more = (reached.here.gap + 2 * gap_.max_error()) / -reached.here.slope;
-  const bool hits = more >= 0 && gap_.surely_touches(reached.fraction, reached.here, std::min(more, left));
-  if (!hits) {
-    ++exact_decisions_;
-    if (!comes_within(1)) return std::nullopt;
-  }
-  return std::max(reached.fraction, smallest);
+/// Nothing touches before there. Returns bounds where it is near enough and surely a hit.
+std::optional<TouchBounds> FirstTouch::conclude(const Reached& reached) const noexcept {
+  // Curved as it is, the gap falls to zero within so much more than it would if straight.
+  constexpr double curved = 1 + 0x1p-10, near = 0x1p-10;
+  const PathGap::Sample& here = reached.here;
+  const double more =
+      std::min((here.gap + 2 * gap_.max_error()) / -here.slope * curved, 1 - reached.fraction);
+  const bool is_sure =
+      more >= 0 && (here.gap <= 2 * here.error ? gap_.surely_touches(reached.fraction, here, more)
+                                               : more < near && gap_.reaches_foot(here, more));
+  if (!is_sure) return std::nullopt;
+  return TouchBounds{std::max(reached.fraction, smallest), std::min(reached.fraction + more + epsilon, 1.0)};
 }
 
-/// Halves the rest of the path where steps lead nowhere, since the path grazes; decides exactly where the
-/// slope drowns in rounding. At `high` or before it the gap is at most twice the error.
-std::optional<double> FirstTouch::halve(const Reached& reached) noexcept {
-  constexpr double grid = 0x1p53, narrow = 0x1p-52;
+/// Decides exactly where the path grazes, so that steps lead nowhere or the slope drowns in rounding.
+std::optional<TouchBounds> FirstTouch::decide(const Reached& reached) noexcept {
   ++exact_decisions_;
   if (!comes_within(1)) return std::nullopt;
-  double low = reached.fraction, high = 1;
+  const double fraction = refine({std::max(reached.fraction, smallest), 1});
+  return TouchBounds{fraction, fraction};
+}
+
+double FirstTouch::refine(const TouchBounds& bounds) noexcept {
+  constexpr double narrow = 0x1p-50;
+  if (bounds.last - bounds.first < narrow) return bounds.first;
+  const std::optional<double> precise = gap_.precise_touch(bounds.first);
+  return precise ? *precise : halve(bounds.first, bounds.last);
+}
+
+/// Halves the part in which the first touch is, down to less than 2^-50 of the path.
+double FirstTouch::halve(double low, double high) noexcept {
+  constexpr double grid = 0x1p53, narrow = 0x1p-51;
+  ++exact_decisions_;
   while (high - low > narrow) {
     const double middle = std::round(std::midpoint(low, high) * grid) / grid;
     const PathGap::Sample there = gap_.at(middle);
-    bool before = there.gap <= there.error || there.surely_rises();
-    if (!before && !there.surely_falls()) before = comes_within(middle);
-    (before ? high : low) = middle;
-    if (!before && there.gap <= 2 * there.error) break;
+    const bool is_off = there.gap > there.error;
+    const bool after = there.gap < -there.error || (is_off && there.surely_rises()) ||
+                       (!(is_off && there.surely_falls()) && comes_within(middle));
+    (after ? high : low) = middle;
   }
-  return std::max(low, smallest);
+  return low;
 }
 
-std::optional<double> FirstTouch::find(double limit) noexcept {
+std::optional<TouchBounds> FirstTouch::find(double limit) noexcept {
   // Grazing makes Newton's steps halve instead of square the error: this many exhaust a double's digits.
   constexpr int max_steps = 64;
   if (!gap_.is_defined()) return std::nullopt;
   Reached reached{0, gap_.at(0)};
   if (sweep_.radius == 0 && !stays_above(0, reached, 1) && keeps_off_plane(reached.here)) return std::nullopt;
-  if (reached.here.gap <= reached.here.error && touches_at_start(reached.here)) return 0;
+  if (reached.here.gap <= reached.here.error && touches_at_start(reached.here)) return TouchBounds{0, 0};
   for (int step = 0; step < max_steps; ++step) {
     if (reached.here.surely_rises() || stays_above(0, reached, 1) || stays_apart(reached))
       return std::nullopt;
     if (reached.fraction >= 1 && reached.here.gap > reached.here.error) return std::nullopt;
-    // Up to the limit the gap is more than at any fraction told: 2 errors as computed, so 3.
-    if (stays_above(3 * gap_.max_error(), reached, limit)) return std::nullopt;
-    if (reached.here.gap <= 2 * reached.here.error) return conclude(reached);
+    // Up to the limit the gap is more than at the fraction told.
+    if (stays_above(gap_.max_early(), reached, limit)) return std::nullopt;
+    if (const std::optional<TouchBounds> bounds = conclude(reached)) return bounds;
+    if (reached.here.gap <= 2 * reached.here.error) return decide(reached);
     const Reached next = advance(reached);
     if (!(next.fraction > reached.fraction)) break;
     reached = next;
   }
-  return halve(reached);
+  return decide(reached);
 }
 
 }  // namespace
@@ -165,11 +183,24 @@ double position_error(const Sweep& sweep) noexcept {
   return 4 * epsilon * (sweep.from.cwiseAbs().maxCoeff() + sweep.to.cwiseAbs().maxCoeff());
 }
 
-std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit,
-                                std::uint64_t& exact_decisions) noexcept {
+std::optional<TouchBounds> touch_bounds(const PreparedTriangle& triangle, const Sweep& sweep, double limit,
+                                        std::uint64_t& exact_decisions) noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
-  const std::optional<double> hit = FirstTouch(triangle, sweep, exact_decisions).find(limit);
-  return hit && *hit <= limit ? hit : std::nullopt;
+  const std::optional<TouchBounds> bounds = FirstTouch(triangle, sweep, exact_decisions).find(limit);
+  return bounds && bounds->first <= limit ? bounds : std::nullopt;
+}
+
+double touch_fraction(const PreparedTriangle& triangle, const Sweep& sweep, const TouchBounds& bounds,
+                      std::uint64_t& exact_decisions) noexcept {
+  return bounds.first < bounds.last ? FirstTouch(triangle, sweep, exact_decisions).refine(bounds)
+                                    : bounds.first;
+}
+
+std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit) noexcept {
+  std::uint64_t uncounted = 0;
+  const std::optional<TouchBounds> bounds = touch_bounds(triangle, sweep, limit, uncounted);
+  const double fraction = bounds ? touch_fraction(triangle, sweep, *bounds, uncounted) : infinity;
+  return fraction <= limit ? std::optional(fraction) : std::nullopt;
 }
 
 Contact contact_on_path(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,

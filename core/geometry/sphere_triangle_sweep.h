@@ -1,8 +1,8 @@
 /// When a moving ball first touches a triangle.
 ///
 /// Whether it does is decided exactly. The fraction is 0 where, and only where, the probe touches at the
-/// start; it is never late, and early by no more than max_early_gap tells. Newton's method on the distance,
-/// which is convex along the way, with checked steps. Proof: docs/exactness.md, E16.
+/// start; it is never late, and early by less than 2^-50. Newton's method on the distance, which is convex
+/// along the way, with checked steps; the last of them in double-double. Proof: docs/exactness.md, E16.
 #pragma once
 
 #include <algorithm>
@@ -19,31 +19,34 @@ namespace touchmark {
 /// Bounds by how much a position on the path that is rounded to a point (position_at) can be off.
 double position_error(const Sweep& sweep) noexcept;
 
-/// Bounds by how much the distance at a reported fraction may exceed the radius: 384 u S, S the largest
-/// coordinate difference from the path's start to the triangle's corners plus the path's largest coordinate.
-/// See above.
-inline double max_early_gap(double start_difference, double largest_path) noexcept {
-  return 384 * (std::numeric_limits<double>::epsilon() / 2) * (start_difference + largest_path);
-}
+/// What is known of the fraction of the first touch.
+struct TouchBounds {
+  double first, last;
+};
 
-/// The fraction in [0, limit] of the path at which the triangle is first touched, or nothing; see above. The
-/// limit only ends the search and does not change the fraction, so that detectors may look at triangles in
-/// any order. A sweep that does not move hits when it touches at once. Nothing where a number is not finite
-/// (the radius may be infinite) or the radius is below 0. Counts 1 where doubles did not decide.
-std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit,
-                                std::uint64_t& exact_decisions) noexcept;
-inline std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep,
-                                       double limit) noexcept {
-  std::uint64_t uncounted = 0;
-  return sweep_hit(triangle, sweep, limit, uncounted);
-}
+/// Bounds of touch_fraction, both 0 where the probe touches at the start; nothing where the triangle is not
+/// touched, or not before `limit`. The limit only ends the search and does not change the bounds, so that
+/// detectors may look at triangles in any order. A sweep that does not move hits when it touches at once.
+/// Nothing where a number is not finite (the radius may be infinite) or the radius is below 0. Counts 1 where
+/// doubles did not decide.
+std::optional<TouchBounds> touch_bounds(const PreparedTriangle& triangle, const Sweep& sweep, double limit,
+                                        std::uint64_t& exact_decisions) noexcept;
+
+/// The fraction in [0, 1] of the path at which the triangle is first touched, from what touch_bounds
+/// returned; see above. It depends on the triangle and the sweep alone.
+double touch_fraction(const PreparedTriangle& triangle, const Sweep& sweep, const TouchBounds& bounds,
+                      std::uint64_t& exact_decisions) noexcept;
+
+/// Returns touch_fraction where it is at most the limit, else nothing.
+std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit) noexcept;
 
 /// Does the plane with this unit normal surely keep ball and triangle apart up to a fraction of the path: by
 /// so much that no fraction up to there is told for it? Costs a tenth of sweep_hit.
 inline bool plane_keeps_apart(const PreparedTriangle& triangle, const Sweep& sweep, const Vec3& normal,
                               double until) noexcept {
-  // Heights are off by 32 u S, and the change along the path by as much, with S as for max_early_gap. That
-  // counts only where a touch may come later.
+  // With S the largest coordinate difference from the start to the corners plus the path's largest
+  // coordinate, heights and the change along the path are off by 32 u S, and a fraction is early by less than
+  // 14 u S.
   constexpr double error = 64 * (std::numeric_limits<double>::epsilon() / 2);
   double lowest = std::numeric_limits<double>::infinity(), largest = 0;
   for (const Vec3& corner : triangle.corner) {
@@ -52,10 +55,8 @@ inline bool plane_keeps_apart(const PreparedTriangle& triangle, const Sweep& swe
     largest = std::max(largest, start.cwiseAbs().maxCoeff());
   }
   const Vec3 path = sweep.to - sweep.from;
-  const double largest_path = path.cwiseAbs().maxCoeff();
-  const double early = until < 1 ? max_early_gap(largest, largest_path) : 0.0;
   return lowest + std::min(until * normal.dot(path), 0.0) - sweep.radius >
-         error * (largest + largest_path) + early;
+         error * (largest + path.cwiseAbs().maxCoeff());
 }
 
 /// Returns the direction of an offset; zero, which keeps nothing apart, where it is too short to have one.

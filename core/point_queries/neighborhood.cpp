@@ -185,7 +185,7 @@ bool sweep_listed(const WideBvh& bvh, const Sweep& sweep, double reach, std::uin
       if (plane_keeps_apart(triangle, sweep, bvh::offset_at(bvh, slot, nearer))) continue;
     }
     if (work.exceeds_limit()) return true;
-    first.consider(triangle, slot, work.exact_decisions);
+    first.consider(triangle, work.exact_decisions);
   }
   return true;
 }

@@ -72,8 +72,7 @@ std::optional<Impact> conclude(const Surface& surface, const FirstTouch& first, 
     return std::nullopt;
   }
   const std::optional<Impact> impact = impact_of(
-      first, surface.bvh.parts().triangles, surface.bvh.ids(), surface.certified,
-      [&](double reach_at_start) -> std::optional<Contact> {
+      first, surface.bvh.ids(), surface.certified, [&](double reach_at_start) -> std::optional<Contact> {
         if (work.limit == LimitedWork::unlimited)
           return nearest(surface, sweep.from, reach_at_start, memory, work);
         const WithinBudget start = nearest_within_budget(surface, sweep.from, reach_at_start, memory, work);

@@ -75,7 +75,7 @@ class SweepCandidates {
   /// Asks the exact sweep, within the limit.
   void decide(std::uint32_t at, LimitedWork& work) noexcept {
     if (work.exceeds_limit()) return first_.give_up();
-    first_.consider(triangles_[at], at, work.exact_decisions);
+    first_.consider(triangles_[at], work.exact_decisions);
   }
   /// Returns where the ball is at the first touch so far, rounded, or at the end of the path.
   Vec3 end() const noexcept { return position_at(first_.sweep(), first_.limit()); }

@@ -1,11 +1,9 @@
 /// The triangle that a moving ball touches first, of those that a search looks at, and the impact on it.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <span>
 
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
@@ -25,47 +23,61 @@ class FirstTouch {
   explicit FirstTouch(const Sweep&&) = delete;
 
   const Sweep& sweep() const noexcept { return sweep_; }
-  bool found() const noexcept { return fraction_ <= 1; }
-  double fraction() const noexcept { return fraction_; }
-  std::uint32_t slot() const noexcept { return slot_; }
+  bool found() const noexcept { return triangle_ != nullptr; }
   /// Returns the part of the path that is still to be looked at.
-  double limit() const noexcept { return std::min(fraction_, 1.0); }
+  double limit() const noexcept { return bounds_.last; }
 
   /// Leaves nothing of the path to look at.
-  void give_up() noexcept { fraction_ = -1; }
-  /// Looks at the triangle in this slot; counts where whole numbers decide.
-  void consider(const PreparedTriangle& triangle, std::uint32_t slot,
-                std::uint64_t& exact_decisions) noexcept {
+  void give_up() noexcept { bounds_ = {-1, -1}; }
+  /// Looks at a triangle, which must outlive this; counts where whole numbers decide. Fractions are refined
+  /// only where bounds do not tell which is smaller.
+  void consider(const PreparedTriangle& triangle, std::uint64_t& exact_decisions) noexcept {
     if constexpr (tracing) note_triangle(triangle.index);
-    const std::optional<double> fraction = sweep_hit(triangle, sweep_, limit(), exact_decisions);
-    if (!fraction || !(*fraction < fraction_ || (*fraction == fraction_ && triangle.index < index_))) return;
-    fraction_ = *fraction;
-    index_ = triangle.index;
-    slot_ = slot;
+    if (found() && triangle.index == triangle_->index) return;
+    std::optional<TouchBounds> other = touch_bounds(triangle, sweep_, limit(), exact_decisions);
+    if (!other) return;
+    if (found() && other->last >= bounds_.first) {
+      const double fraction = touch_fraction(triangle, sweep_, *other, exact_decisions);
+      refine(exact_decisions);
+      if (fraction > bounds_.first || (fraction == bounds_.first && triangle.index > triangle_->index))
+        return;
+      other = {fraction, fraction};
+    }
+    triangle_ = &triangle;
+    bounds_ = *other;
+  }
+  /// Returns the triangle found and the fraction at which it is touched.
+  const PreparedTriangle& triangle() const noexcept { return *triangle_; }
+  double fraction() const noexcept {
+    std::uint64_t uncounted = 0;
+    return touch_fraction(*triangle_, sweep_, bounds_, uncounted);
   }
 
  private:
+  void refine(std::uint64_t& exact_decisions) noexcept {
+    bounds_.first = bounds_.last = touch_fraction(*triangle_, sweep_, bounds_, exact_decisions);
+  }
+
   const Sweep& sweep_;
-  double fraction_ = std::numeric_limits<double>::infinity();
-  std::uint32_t index_ = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t slot_ = 0;
+  const PreparedTriangle* triangle_ = nullptr;
+  TouchBounds bounds_{0, 1};
 };
 
 /// Ends a search for `first_hit`: returns the impact, or nothing. Of all the triangles that are touched at
 /// the start the nearest one counts: nearest(reach) looks for it. Where contact is decided by doubles, these
 /// may find it beyond the radius, so that any reach will do.
 template <class Nearest>
-std::optional<Impact> impact_of(const FirstTouch& first, std::span<const PreparedTriangle> triangles,
-                                const TriangleIds& ids, bool decides_exactly,
+std::optional<Impact> impact_of(const FirstTouch& first, const TriangleIds& ids, bool decides_exactly,
                                 const Nearest& nearest) noexcept {
   if (!first.found()) return std::nullopt;
   const Sweep& sweep = first.sweep();
-  if (first.fraction() == 0) {
+  const double fraction = first.fraction();
+  if (fraction == 0) {
     const double reach = decides_exactly ? sweep.radius : std::numeric_limits<double>::infinity();
     if (const std::optional<Contact> start = nearest(reach)) return Impact{0, *start};
   }
-  const PreparedTriangle& triangle = triangles[first.slot()];
-  return Impact{first.fraction(), contact_on_path(triangle, sweep, first.fraction(), ids[triangle.index])};
+  const PreparedTriangle& triangle = first.triangle();
+  return Impact{fraction, contact_on_path(triangle, sweep, fraction, ids[triangle.index])};
 }
 
 }  // namespace touchmark

@@ -32,7 +32,7 @@ std::optional<Contact> LinearScan::nearest(const Vec3& center, double reach, Wor
 
 std::optional<Impact> LinearScan::first_hit(const Sweep& sweep, Work& work) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
-  return impact_of(first_touch(sweep, work), triangles, ids, is_certified,
+  return impact_of(first_touch(sweep, work), ids, is_certified,
                    [&](double reach) { return nearest(sweep.from, reach, work); });
 }
 
@@ -48,7 +48,7 @@ std::size_t LinearScan::contacts(const Vec3& center, double reach, std::span<Con
 FirstTouch LinearScan::first_touch(const Sweep& sweep, Work& work) const noexcept {
   FirstTouch first(sweep);
   for (std::uint32_t slot = 0; slot < triangles.size(); ++slot)
-    first.consider(triangles[slot], slot, work.exact_decisions);
+    first.consider(triangles[slot], work.exact_decisions);
   work.triangles += triangles.size();
   return first;
 }

@@ -85,8 +85,8 @@ TEST(BruteForce, ASweepStopsAtTheFirstOfTwoLayers) {
   ASSERT_TRUE(impact);
   EXPECT_EQ(impact->contact.triangle, 1u);
   EXPECT_LE(impact->fraction, 3.5 / 8);
-  EXPECT_GE(impact->fraction, 3.5 / 8 - max_early_gap(5, 8) / 8);
-  EXPECT_NEAR(impact->contact.distance, 0.5, 2 * max_early_gap(5, 8));
+  EXPECT_GE(impact->fraction, 3.5 / 8 - 0x1p-50);
+  EXPECT_NEAR(impact->contact.distance, 0.5, 1e-12);
 }
 
 TEST(BruteForce, ASweepThatStartsTouchingGivesTheNearestTriangleThere) {

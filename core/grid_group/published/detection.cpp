@@ -105,15 +105,13 @@ std::optional<Impact> PublishedGridGroup::first_hit(const Sweep& sweep, Session&
       ++work.cells;
       if (!passes(shapes[group], sweep, by)) continue;
       search_members(group, work, [&](const PreparedTriangle& triangle) {
-        first.consider(triangle, triangle.index, work.exact_decisions);
+        first.consider(triangle, work.exact_decisions);
         return false;
       });
     }
   };
   boxes_.empty() ? scan(spheres_) : scan(boxes_);
-  return impact_of(first, triangles_, ids_, true, [&](double reach) {
-    return nearest({sweep.from, 0}, reach, session);
-  });
+  return impact_of(first, ids_, true, [&](double reach) { return nearest({sweep.from, 0}, reach, session); });
 }
 
 std::size_t PublishedGridGroup::contacts(const Probe& probe, double reach, Session& session,

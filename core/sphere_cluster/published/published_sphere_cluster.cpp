@@ -115,12 +115,12 @@ std::optional<Impact> PublishedSphereCluster::first_hit(const Sweep& sweep, Sess
   for_each_held(spheres_.size(), outside, [&](std::size_t sphere) noexcept {
     search(sphere, sweep.from, at_start, work);
     for (std::uint32_t i = clusters_.first[sphere]; i < clusters_.first[sphere + 1]; ++i)
-      first.consider(triangles_[i], i, work.exact_decisions);
+      first.consider(triangles_[i], work.exact_decisions);
     return false;
   });
   work.spheres += spheres_.size();
   // What is known of the start mostly is enough to say what is nearest there.
-  return impact_of(first, triangles_, ids_, true, [&](double within) {
+  return impact_of(first, ids_, true, [&](double within) {
     const double distance = std::sqrt(at_start.best().squared_distance);
     return is_certain_first(at_start, triangles_, distance, sweep.from, within, error)
                ? contact_on(triangles_[at_start.at()], sweep.from, ids_[at_start.best().index])

@@ -99,7 +99,7 @@ TEST(QueryCommand, SweepAppendsTheFractionOfTheWay) {
   EXPECT_EQ(cells[1], "1");
   EXPECT_EQ(cells[2], "2");
   // The sweep stops a little before the touch, not on it; coordinates differ by at most 3, the way's by 4.
-  const double rounding = max_early_gap(3, 4);
+  const double rounding = 1e-12;
   EXPECT_NEAR(std::stod(cells[3]), 0, rounding);
   EXPECT_NEAR(std::stod(cells[6]), 0.5, rounding);
   EXPECT_NEAR(std::stod(cells[10]), 0.5, rounding);

@@ -101,8 +101,8 @@ TEST(SceneOracle, MeasuresToASurfaceFromEitherSide) {
   const Sweep out{{0, 0, 0}, {0, 4, 0}, 1};
   EXPECT_FALSE(oracle.touches_before(out, 0.25)) << "at 1 of 4 it is one radius below the surface";
   EXPECT_TRUE(oracle.touches_before(out, 0.26));
-  EXPECT_TRUE(oracle.within_on_path(out, 0.25, 1));
-  EXPECT_FALSE(oracle.within_on_path(out, 0.24, 1));
+  EXPECT_TRUE(oracle.touches_soon_after(out, 0.25, 1));
+  EXPECT_FALSE(oracle.touches_soon_after(out, 0.24, 1));
   EXPECT_TRUE(oracle.surely_crosses({0, 0, 0}, {0, 4, 0}, 1.5));
   EXPECT_FALSE(oracle.surely_crosses({0, 0, 0}, {0, 4, 0}, 2.5));
 }
@@ -154,7 +154,7 @@ TEST(SceneOracle, FindsAMovedBodyWhereItIs) {
   EXPECT_FALSE(oracle.segment_within({0.25, 0.25, -1}, {0.25, 0.25, 4.5}, 0.25));
   EXPECT_TRUE(oracle.touches_before({{0.25, 0.25, 0}, {0.25, 0.25, 8}, 1}, 0.51));
   EXPECT_FALSE(oracle.touches_before({{0.25, 0.25, 0}, {0.25, 0.25, 8}, 1}, 0.5));
-  EXPECT_TRUE(oracle.within_on_path({{0.25, 0.25, 0}, {0.25, 0.25, 8}, 1}, 0.5, 1));
+  EXPECT_TRUE(oracle.touches_soon_after({{0.25, 0.25, 0}, {0.25, 0.25, 8}, 1}, 0.5, 1));
 }
 
 }  // namespace

@@ -170,14 +170,15 @@ class Judge:
             return
         before = Fraction(math.nextafter(impact.fraction, 0))
         self.expect(not comes_within(before, r), f"{about}: fraction {impact.fraction!r} is late")
-        # S: the largest difference of coordinates along the way, and the radius. Then twice E27's bound of the image.
+        # 2^-50 of the way, and twice E27's bound of the image (E30).
         ends = (exactly(start), exactly(end))
         size = r + max(abs(x - y) for body in self.scene.bodies.values() for image in body.images for corner in image
                        for point in ends for x, y in zip(corner, point))
-        early = 384 * UNIT * size
+        step = Fraction(2) ** -50 * sum(abs(x) for x in way)
+        early = step
         for body in self.scene.bodies.values():
             away = max(sum(abs(x - t) for x, t in zip(point, exactly(body.position))) for point in ends)
-            early = max(early, 384 * UNIT * size + 2 * (body.rigid * (3 * size + away) + Fraction(32, 5) * UNIT * 2 * away))
+            early = max(early, step + 2 * (body.rigid * (3 * size + away) + Fraction(32, 5) * UNIT * 2 * away))
         self.expect(comes_within(Fraction(impact.fraction), r + early), f"{about}: fraction {impact.fraction!r} is early")
 
 
