@@ -268,11 +268,10 @@ int ChooseCommand::run() {
         fmt::format("nothing is recommended by {} of {} motions", rows_.size(), workload_.traces.size()));
   if (time_is_up_ &&
       std::ranges::none_of(candidates_, [](const auto& one) { return one.times.has_value(); })) {
-    fmt::print(
-        stderr,
-        "touchmark: nothing is recommended: no candidate was measured within {:g} minutes; allow more by "
-        "--minutes\n",
-        minutes());
+    fmt::print(stderr,
+               "touchmark: nothing is recommended: no candidate was measured within {:g} minutes; allow more "
+               "by --minutes\n",
+               minutes());
     return support::exit_inconclusive;
   }
   return report();

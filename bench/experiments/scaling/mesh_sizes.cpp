@@ -45,8 +45,7 @@ std::vector<std::uint64_t> parse_sizes(const std::string& text, const SizesOf& o
     const std::optional<std::uint64_t> size = parse_size(part, of);
     if (!size) {
       throw std::invalid_argument(
-          fmt::format("--sizes \"{}\": \"{}\" is not a whole number of {} from {} to {}, as 5000, 5k "
-                      "or 1.5M",
+          fmt::format("--sizes \"{}\": \"{}\" is not a whole number of {} from {} to {}, as 5000, 5k or 1.5M",
                       text, part, of.what, of.least, of.most));
     }
     sizes.push_back(*size);

@@ -61,11 +61,10 @@ void add_triangle_shapes(ChoiSungClaimList& list) {
       clark > original && others.back() == catmull_clark_linear,
       fmt::format("longest edge over shortest {:.2f} at level 3, {:.2f} in the original", clark, original),
       "of this mesh's triangles others are longer");
-  list.add(
-      "Graphical test", "Mid-point's triangles are equilateral", mid < 1.1,
-      fmt::format("longest edge over shortest {:.2f} at level 3, {:.2f} in the original", mid, original),
-      "halving every edge makes four triangles of the parent's shape, whatever that is; where only the long "
-      "edges split the shape gets a little rounder");
+  list.add("Graphical test", "Mid-point's triangles are equilateral", mid < 1.1,
+           fmt::format("longest edge over shortest {:.2f} at level 3, {:.2f} in the original", mid, original),
+           "halving every edge makes four triangles of the parent's shape, whatever that is; where only the "
+           "long edges split the shape gets a little rounder");
 }
 
 void add_volumes(ChoiSungClaimList& list) {
@@ -121,8 +120,7 @@ void add_kept_places(ChoiSungClaimList& list) {
            fmt::format("Catmull-Clark: {}, Loop: {}, Mid-point: {}, LS3: {}", yes_no(catmull_clark_linear),
                        yes_no(loop), yes_no(mid_point), yes_no(ls3)),
            "Mid-point moves nothing, and what the tool calls Catmull-Clark interpolates linearly; the paper "
-           "says so "
-           "itself where it finds that both maintain the original surface");
+           "says so itself where it finds that both maintain the original surface");
 }
 
 void add_smoothness(ChoiSungClaimList& list) {
@@ -142,9 +140,8 @@ void add_smoothness(ChoiSungClaimList& list) {
                   list.value(butterfly, 3, false, crease), list.value(ls3, 3, false, crease),
                   list.value(loop, 3, false, crease), list.value(mid_point, 3, false, crease),
                   list.value(catmull_clark_linear, 3, false, crease)),
-      list.why(
-          "Loop and LS3 are; Mid-point and the tool's Catmull-Clark, which the paper calls approximating, "
-          "keep the facets"));
+      list.why("Loop and LS3 are; Mid-point and the tool's Catmull-Clark, which the paper calls "
+               "approximating, keep the facets"));
   if (list.value(loop, 3, false, crease) < list.value(butterfly, 3, false, crease) &&
       list.value(ls3, 3, false, crease) < list.value(butterfly, 3, false, crease) &&
       claim.agreement == Agreement::no)

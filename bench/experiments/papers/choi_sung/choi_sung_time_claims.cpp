@@ -48,12 +48,9 @@ std::string fixed_parts() {
   const LineFit single = line_through(printed_ticks(false)), clustered = line_through(printed_ticks(true));
   return fmt::format(
       "the printed detection time is the printed tick (1000 / rate) and {:.2f} +- {:.2f} ms at every level, "
-      "without "
-      "and with clustering: one measurement with an offset; the tick itself is {:.2f} ms and {:.3f} us a "
-      "sphere "
-      "without clustering, {:.2f} ms and {:.2f} us a sphere with it. What does not grow with the spheres is "
-      "no "
-      "search; ours are the search alone",
+      "without and with clustering: one measurement with an offset; the tick itself is {:.2f} ms and {:.3f} "
+      "us a sphere without clustering, {:.2f} ms and {:.2f} us a sphere with it. What does not grow with the "
+      "spheres is no search; ours are the search alone",
       mean, std::sqrt(spread), single.offset, 1e3 * single.slope, clustered.offset, 1e3 * clustered.slope);
 }
 
@@ -79,11 +76,10 @@ void add_slopes(ChoiSungClaimList& list) {
       time_claim(where, "us a sphere without clustering", 1e3 * theirs.slope, 1e-3 * ours.slope, 4, reason));
   list.add(time_claim(where, "us a sphere with clustering", 1e3 * theirs_clustered.slope,
                       1e-3 * ours_clustered.slope, 4, reason));
-  list.add(number_claim(
-      where, "a clustered sphere over one without clustering", theirs_clustered.slope / theirs.slope,
-      ours_clustered.slope / ours.slope, 2, 0.1,
-      list.why("a clustered sphere holds more triangles, and what those cost over a sphere is of the "
-               "machine and the program")));
+  list.add(number_claim(where, "a clustered sphere over one without clustering",
+                        theirs_clustered.slope / theirs.slope, ours_clustered.slope / ours.slope, 2, 0.1,
+                        list.why("a clustered sphere holds more triangles, and what those cost over a sphere "
+                                 "is of the machine and the program")));
   const LineFit counted = our_line(list, false, tests);
   list.add("Fig. 10", "without clustering the time grows in proportion to the spheres",
            std::abs(counted.slope - 1) < 0.01,
@@ -138,8 +134,7 @@ void add_threshold_claims(ChoiSungClaimList& list) {
   list.add("Abstract", "performance becomes better until a certain threshold and degrades afterward", better,
            fmt::format("tests a query over the levels, without clustering: {}", found),
            "no level is faster than the one before, in the paper's Table 3 neither; what has such a "
-           "threshold is the "
-           "distance of clustering (distances.csv)");
+           "threshold is the distance of clustering (distances.csv)");
   const double gain = list.value(ls3, 3, false, tests) / list.value(ls3, 3, true, tests);
   list.add("Abstract", "clustering improves the speed of detection notably", gain > 1.5,
            fmt::format("{:.1f} times fewer tests at level 3", gain));
