@@ -92,9 +92,7 @@ void add_mesh_measure(CLI::App& mesh_command) {
     const Vec3 center = parse_center(options->center);
     nlohmann::ordered_json measures =
         measures_of(meshes::load_mesh(options->mesh, options->normalize), center);
-    support::StandardOutput out;
-    out.write(options->json ? measures.dump(2) + "\n" : lines_of(measures));
-    out.finish();
+    support::StandardOutput().write(options->json ? measures.dump(2) + "\n" : lines_of(measures));
   });
 }
 

@@ -124,9 +124,7 @@ void subdivide_into_file(const SubdivideOptions& options) {
   warn_of_seams(options, coarse);
   const TriangleMesh fine = subdivide(coarse, request.subdivision);
   meshes::write_mesh(fine, options.output);
-  support::StandardOutput out;
-  out.write(summary(options, request.subdivision, coarse, fine));
-  out.finish();
+  support::StandardOutput().write(summary(options, request.subdivision, coarse, fine));
 }
 
 }  // namespace

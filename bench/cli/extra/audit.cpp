@@ -123,9 +123,7 @@ class AuditCommand {
   }
 
   int report() {
-    support::StandardOutput out;
-    out.write(audit::audit_table(rows_) + audit::audit_findings(rows_));
-    out.finish();
+    support::StandardOutput().write(audit::audit_table(rows_) + audit::audit_findings(rows_));
     if (frame_.folder) {
       frame_.folder->write_file("audit.csv", audit::audit_csv(rows_));
       frame_.folder->write_file("audit_points.csv", points_);

@@ -239,7 +239,6 @@ int ChooseCommand::report() const {
   const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
   if (!ranked.empty()) out.write('\n' + code(ranked));
   if (time_is_up_) out.write('\n' + time_is_up_text());
-  out.finish();
   if (!ranked.empty()) return support::exit_done;
   return unmeasured_.empty() ? support::exit_check_failed : support::exit_inconclusive;
 }

@@ -155,7 +155,6 @@ int run(const ProgramContext& context, const TuneOptions& options) {
   const std::string rising = papers::rising_error_note(result);
   if (!rising.empty()) out.write(rising + "\n");
   out.write("\n" + table_of(result, mesh.diagonal(), rate));
-  out.finish();
   return tuned.published || tuned.fast ? support::exit_done : support::exit_check_failed;
 }
 
