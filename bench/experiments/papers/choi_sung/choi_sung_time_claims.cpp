@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bench/experiments/papers/choi_sung/choi_sung_claim_list.h"
 #include "bench/experiments/papers/choi_sung/choi_sung_printed.h"
@@ -88,51 +90,34 @@ void add_slopes(ChoiSungClaimList& list) {
 
 /// Table 3's three ratios: the Discussion says of each that it grows with the level.
 void add_growing_ratios(ChoiSungClaimList& list) {
-  const auto rises = [&](const RowValue& of, std::string& found) {
-    bool rising = true;
-    double last = -1e9;
-    for (int level = 0; level <= 3; ++level) {
-      const double gain = list.value(ls3, level, false, of) / list.value(ls3, level, true, of);
-      rising = rising && gain > last;
-      last = gain;
-      found += fmt::format("{}{:.2f}", found.empty() ? "" : ", ", gain);
-    }
-    return rising;
+  const auto gains = [&](const RowValue& of) {
+    return over_levels(
+        0, [&](int level) { return list.value(ls3, level, false, of) / list.value(ls3, level, true, of); });
   };
-  std::string by_time, by_tests;
-  const bool time_rises = rises(nanoseconds, by_time), tests_rise = rises(tests, by_tests);
+  const std::vector<double> by_time = gains(nanoseconds), by_tests = gains(tests);
   list.add("Discussion", "the reduction of the detection time grows with the level (LS3)",
-           time_rises && tests_rise,
-           fmt::format("without over with clustering: {} in time, {} in tests", by_time, by_tests));
+           rises(by_time) && rises(by_tests),
+           fmt::format("without over with clustering: {:.2f} in time, {:.2f} in tests",
+                       fmt::join(by_time, ", "), fmt::join(by_tests, ", ")));
   list.add("Discussion", "the increment of the update rate grows with the level (LS3)",
-           time_rises && tests_rise, "the same ratios: a rate is the inverse of a time");
+           rises(by_time) && rises(by_tests), "the same ratios: a rate is the inverse of a time");
 }
 
 /// "the growth rate with clustering becomes more flat as the levels become higher".
 void add_flattening(ChoiSungClaimList& list) {
-  bool flatter = true;
-  double last = 1e9;
-  std::string found;
-  for (int level = 1; level <= 3; ++level) {
-    const double growth = list.value(ls3, level, true, tests) / list.value(ls3, level - 1, true, tests);
-    flatter = flatter && growth < last;
-    last = growth;
-    found += fmt::format("{}{:.2f}", found.empty() ? "" : ", ", growth);
-  }
-  list.add("Fig. 10", "with clustering the growth gets flatter as the levels get higher (LS3)", flatter,
-           fmt::format("from level to level {} times the tests", found));
+  const std::vector<double> growth = over_levels(1, [&](int level) {
+    return list.value(ls3, level, true, tests) / list.value(ls3, level - 1, true, tests);
+  });
+  list.add("Fig. 10", "with clustering the growth gets flatter as the levels get higher (LS3)", falls(growth),
+           fmt::format("from level to level {:.2f} times the tests", fmt::join(growth, ", ")));
 }
 
 void add_threshold_claims(ChoiSungClaimList& list) {
-  const double fewest = list.value(ls3, 0, false, tests);
-  bool better = false;
-  std::string found;
-  for (int level = 0; level <= 3; ++level) {
-    better = better || list.value(ls3, level, false, tests) < fewest;
-    found += fmt::format("{}{:.0f}", found.empty() ? "" : ", ", list.value(ls3, level, false, tests));
-  }
+  const std::vector<double> all =
+      over_levels(0, [&](int level) { return list.value(ls3, level, false, tests); });
+  const bool better = std::ranges::min(all) < all.front();
   list.add("Abstract", "performance becomes better until a certain threshold and degrades afterward", better,
-           fmt::format("tests a query over the levels, without clustering: {}", found),
+           fmt::format("tests a query over the levels, without clustering: {:.0f}", fmt::join(all, ", ")),
            "no level is faster than the one before, in the paper's Table 3 neither; what has such a "
            "threshold is the distance of clustering (distances.csv)");
   const double gain = list.value(ls3, 3, false, tests) / list.value(ls3, 3, true, tests);
