@@ -10,6 +10,7 @@
 
 #include "bench/meshes/generated_meshes.h"
 #include "bench/support/numbers.h"
+#include "bench/support/split.h"
 
 namespace touchmark::bench::experiments::scaling {
 namespace {
@@ -39,9 +40,7 @@ std::vector<std::uint64_t> parse_sizes(const std::string& text) {
 
 std::vector<std::uint64_t> parse_sizes(const std::string& text, const SizesOf& of) {
   std::vector<std::uint64_t> sizes;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string part = text.substr(begin, end - begin);
+  for (const std::string_view part : support::split(text, ',')) {
     const std::optional<std::uint64_t> size = parse_size(part, of);
     if (!size) {
       throw std::invalid_argument(
@@ -49,7 +48,6 @@ std::vector<std::uint64_t> parse_sizes(const std::string& text, const SizesOf& o
                       text, part, of.what, of.least, of.most));
     }
     sizes.push_back(*size);
-    begin = end + 1;
   }
   std::sort(sizes.begin(), sizes.end());
   sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
