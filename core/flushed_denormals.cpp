@@ -33,11 +33,10 @@ void check_flushed_denormals(const TriangleMesh& mesh) {
       if (std::bit_cast<std::uint64_t>(x) << 1 == 0 || std::abs(x) >= least) continue;
       std::ostringstream text;
       text.imbue(std::locale::classic());
-      text
-          << "vertex " << i << " has the coordinate " << x
-          << ", which is below 2^-900: this thread flushes denormal numbers to zero, as a library built with "
-             "-ffast-math may have made it, and could answer wrongly; scale the mesh up, or switch FTZ and "
-             "DAZ off";
+      text << "vertex " << i << " has the coordinate " << x
+           << ", which is below 2^-900: this thread flushes denormal numbers to zero, as a library built "
+              "with -ffast-math may have made it, and could answer wrongly; scale the mesh up, or switch FTZ "
+              "and DAZ off";
       throw MeshError(text.str());
     }
   }

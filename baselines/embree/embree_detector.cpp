@@ -91,18 +91,7 @@ struct EmbreeCallbacks {
     const auto& model = *static_cast<const EmbreeDetector::Model*>(arguments->geometryUserPtr);
     Aabb box;
     for (const Vec3& corner : model.triangles[arguments->primID].corner) box.extend(model.frame.into(corner));
-    RTCBounds& out = *arguments->bounds_o;
-    out.lower_x = rounded_down(box.min.x());
-    out.lower_y = rounded_down(box.min.y());
-    out.lower_z = rounded_down(box.min.z());
-    out.upper_x = rounded_up(box.max.x());
-    out.upper_y = rounded_up(box.max.y());
-    out.upper_z = rounded_up(box.max.z());
-  }
-
-  static bool monitor(void* taken, ssize_t bytes, bool) {
-    *static_cast<std::atomic<std::ptrdiff_t>*>(taken) += bytes;
-    return true;
+    set_bounds(*arguments->bounds_o, box);
   }
 
   /// This project's kernel, in the mesh's unit.
@@ -248,7 +237,7 @@ EmbreeDetector EmbreeDetector::build(const TriangleMesh& mesh, const Options& op
   // One thread, as everybody else builds with; and the caller's floating-point modes stay as they are.
   model->device = rtcNewDevice("threads=1,set_affinity=0");
   if (model->device == nullptr) fail(nullptr);
-  rtcSetDeviceMemoryMonitorFunction(model->device, EmbreeCallbacks::monitor, &model->taken);
+  rtcSetDeviceMemoryMonitorFunction(model->device, count_bytes, &model->taken);
   model->scene = rtcNewScene(model->device);
   const bool refits = options.quality == Quality::refit;
   rtcSetSceneFlags(model->scene,

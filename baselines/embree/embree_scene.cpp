@@ -91,18 +91,7 @@ struct EmbreeSceneCallbacks {
     Aabb box;
     for (const Vec3& corner : shape.triangles[arguments->primID].corner)
       box.extend(shape.scale * (corner - shape.center));
-    RTCBounds& out = *arguments->bounds_o;
-    out.lower_x = rounded_down(box.min.x());
-    out.lower_y = rounded_down(box.min.y());
-    out.lower_z = rounded_down(box.min.z());
-    out.upper_x = rounded_up(box.max.x());
-    out.upper_y = rounded_up(box.max.y());
-    out.upper_z = rounded_up(box.max.z());
-  }
-
-  static bool monitor(void* taken, ssize_t bytes, bool) {
-    *static_cast<std::atomic<std::ptrdiff_t>*>(taken) += bytes;
-    return true;
+    set_bounds(*arguments->bounds_o, box);
   }
 
   struct Search {
@@ -156,7 +145,7 @@ void EmbreeScene::World::start() {
   // One thread, as everybody else builds with; and the caller's floating-point modes stay as they are.
   device = rtcNewDevice("threads=1,set_affinity=0");
   if (device == nullptr) throw MeshError("Embree cannot be started");
-  rtcSetDeviceMemoryMonitorFunction(device, EmbreeSceneCallbacks::monitor, &taken);
+  rtcSetDeviceMemoryMonitorFunction(device, count_bytes, &taken);
   top = rtcNewScene(device);
   rtcSetSceneFlags(top, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
 }
@@ -191,11 +180,8 @@ void EmbreeScene::World::set_transform(std::uint32_t body, RTCGeometry instance)
   const ShapeScene& shape = *shapes[bodies[body].shape];
   const Vec3 at = frame.into(image(pose, shape.center));
   std::array<float, 12> columns;
-  for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row)
-      columns[static_cast<std::size_t>(3 * column + row)] = static_cast<float>(pose.rotation(row, column));
-  }
-  for (int row = 0; row < 3; ++row) columns[static_cast<std::size_t>(9 + row)] = static_cast<float>(at[row]);
+  Eigen::Map<Eigen::Matrix3f>(columns.data()) = pose.rotation.cast<float>();
+  Eigen::Map<Eigen::Vector3f>(columns.data() + 9) = at.cast<float>();
   rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
   rtcCommitGeometry(instance);
 }

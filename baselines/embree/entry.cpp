@@ -27,10 +27,9 @@ ContestantInfo embree_entry() {
   info.accuracy = "exact; geometry=triangle: approximate";
   info.queries = queries_of<EmbreeDetector>();
   info.options = {
-      choice(
-          "geometry", geometries,
-          "user: boxes of our own, rounded outward; triangle: Embree's triangles and their closest points in "
-          "single precision; triangle_exact: Embree's boxes, this project's kernel"),
+      choice("geometry", geometries,
+             "user: boxes of our own, rounded outward; triangle: Embree's triangles and their closest points "
+             "in single precision; triangle_exact: Embree's boxes, this project's kernel"),
       choice("quality", qualities,
              "Embree's; refit: updates refit the hierarchy instead of building it anew"),
       choice("warm", yes_or_no, "start from the distance of the session's last triangle"), query_option()};

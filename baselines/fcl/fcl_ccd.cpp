@@ -9,6 +9,8 @@
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
 
+#include "baselines/rival.h"
+
 namespace touchmark::baselines {
 namespace {
 
@@ -62,10 +64,7 @@ struct FclCcd::Model {
 };
 
 FclCcd FclCcd::build(const TriangleMesh& mesh, const Options& options) {
-  constexpr std::size_t most = std::numeric_limits<int>::max();
-  if (mesh.size() > most || mesh.vertices().size() > most)
-    throw MeshError(
-        "FCL counts triangles and vertices in 31 bits, of which there are not enough for this mesh");
+  require_int_counts("FCL", mesh);
   auto model = make_hidden<Model>();
   model->options = options;
   model->ids = mesh.triangle_ids();

@@ -95,10 +95,10 @@ void expect_one_machine(const std::vector<FoundJob>& jobs) {
     list += fmt::format("{}{} jobs ({} and others) on {}", list.empty() ? "" : "; ", of_it.size(),
                         of_it.front()->path, identity);
   }
-  throw std::invalid_argument(fmt::format(
-      "times of {} machines or builds do not mix: {} (--accuracy-only merges what does not depend on them, "
-      "--machine takes those of one)",
-      machines.size(), list));
+  throw std::invalid_argument(
+      fmt::format("times of {} machines or builds do not mix: {} (--accuracy-only merges what does not "
+                  "depend on them, --machine takes those of one)",
+                  machines.size(), list));
 }
 
 std::vector<FoundJob> in_order(std::vector<FoundJob> jobs, const std::optional<Manifest>& manifest) {

@@ -36,9 +36,9 @@ void add_unit(CLI::App& command, std::string& unit) {
 
 void add_selectors(CLI::App& command, ProgramContext& context, contestants::Selectors& selectors,
                    contestants::Variety variety) {
-  CLI::Option* mesh = command.add_option("--mesh", selectors.meshes,
-                                         "a mesh by name (touchmark list) or a file; modifiers may follow: "
-                                         "bunny@scale=1e-3@offset=1e6");
+  CLI::Option* mesh = command.add_option(
+      "--mesh", selectors.meshes,
+      "a mesh by name (touchmark list) or a file; modifiers may follow: bunny@scale=1e-3@offset=1e6");
   mesh->type_name("MESH")->expected(1);
   if (variety == contestants::Variety::one) {
     mesh->multi_option_policy(CLI::MultiOptionPolicy::Throw);

@@ -112,8 +112,8 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"radius", text<&R::radius>, always, length, "the probe's radius"},
     {"reach", text<&R::reach>, always, length, "how far `nearest` looks"},
     {"guarantee", guarantee_of, judged, guarantee,
-     "what the contestant claims: `exact`, `conservative` (never misses a contact, may report one too many)"
-     " or `approximate`"},
+     "what the contestant claims: `exact`, `conservative` (never misses a contact, may report one too many) "
+     "or `approximate`"},
     {"missed", text<&R::counts, &E::missed>, judged, whole_number,
      "steps in contact by the oracle, and not by the contestant"},
     {"false_contacts", text<&R::counts, &E::false_contacts>, judged, whole_number,
@@ -128,8 +128,8 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"max_normal_angle_deg", text<&R::counts, &E::max_normal_angle_deg>, judged, angle,
      "largest angle between reported and true normal"},
     {"unresolved", text<&R::counts, &E::unresolved>, judged, whole_number,
-     "steps where the truth is within the contestant's declared accuracy of the threshold: neither right "
-     "nor wrong; 0 for ours, which decide `touches` and `nearest` exactly"},
+     "steps where the truth is within the contestant's declared accuracy of the threshold: neither right nor "
+     "wrong; 0 for ours, which decide `touches` and `nearest` exactly"},
     {"status", text<&R::status>, always, row_status,
      "`ok`; `unsupported`: it does not answer this query; `refused: ...`: it would not build, and why; "
      "`crashed:SIGSEGV` and the like; `timeout`; `skipped: ...`: `touchmark scale` left it out, because it "
@@ -137,8 +137,8 @@ constexpr auto columns = std::to_array<Column<R>>({
      "verified ones"},
     {"ns_per_query", rounded<6, &R::throughput, &T::ns_per_query>, timed, positive,
      "time of a query, elapsed, over these steps; the median of the repetitions. Over a scene the placing of "
-     "what moved before it is in it, as it is not in `ns_p50` to `ns_max`. Other work on the machine "
-     "moves it: compare `ns_undisturbed`"},
+     "what moved before it is in it, as it is not in `ns_p50` to `ns_max`. Other work on the machine moves "
+     "it: compare `ns_undisturbed`"},
     {"ns_p50", rounded<6, &R::latency, &L::p50>, timed, finite,
      "half of the steps took at most this, each clocked alone, the clock's own cost included; of several "
      "passes each step counts with its median, so that one interruption by the system is not the detector's"},
@@ -160,8 +160,8 @@ constexpr auto columns = std::to_array<Column<R>>({
      "by how much the process's heap grew during the build"},
     {"work_mean", rounded<6, &R::work, &W::mean>, optional, finite,
      "cells, spheres, boxes and triangles looked at in a step, on average: the same on every machine, and "
-     "with `build=lazy` those of the first queries; of rivals only what passes through our code is counted,"
-     " which is triangles and no boxes of theirs"},
+     "with `build=lazy` those of the first queries; of rivals only what passes through our code is counted, "
+     "which is triangles and no boxes of theirs"},
     {"work_max", text<&R::work, &W::max>, optional, whole_number, "the most of these in one step"},
     {"repetitions", text<&R::throughput, &T::repetitions>, timed, positive_count,
      "how often the steps were replayed for `ns_per_query`"},
@@ -183,8 +183,8 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"max_distance_error_of_diagonal", text<&R::counts, &E::max_distance_error_of_diagonal>, judged, length,
      "`max_distance_error` over the diagonal of the mesh's box"},
     {"beyond_bound", text<&R::counts, &E::beyond_bound>, judged, whole_number,
-     "steps whose distance is off by more than the contestant declares, or, where it declares nothing, than"
-     " 1e-6 of the diagonal; triangle, point and normal are held to the same"},
+     "steps whose distance is off by more than the contestant declares, or, where it declares nothing, than "
+     "1e-6 of the diagonal; triangle, point and normal are held to the same"},
     {"wrong_point", text<&R::counts, &E::wrong_point>, judged, whole_number,
      "steps whose point is off by more than the same"},
     {"wrong_normal", text<&R::counts, &E::wrong_normal>, judged, whole_number,
@@ -192,8 +192,8 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"malformed", text<&R::counts, &E::malformed>, judged, whole_number,
      "answers with NaN, infinity or a negative distance in them"},
     {"cpu_ns_per_query", rounded<6, &R::throughput, &T::cpu_ns_per_query>, timed, finite,
-     "processor time of a query, without what other processes took of the core; all of the time where the"
-     " contestant waits, for a thread, process or device of its own"},
+     "processor time of a query, without what other processes took of the core; all of the time where the "
+     "contestant waits, for a thread, process or device of its own"},
     {"answers_checksum", hex<&R::checksum>, judged, checksum,
      "checksum of all answers, in hexadecimal: contestants with the same one answered the same bits"},
     {"cells_mean", work_of<&Work::cells>, optional, finite,
@@ -208,16 +208,16 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"decides_exactly", text<&R::accuracy, &Accuracy::decides_exactly>, judged, bit,
      "1: contact is decided for the true distance of the stored doubles, closed, without any tolerance"},
     {"stored_missed", text<&R::rounded_mesh_counts, &E::missed>, optional, whole_number,
-     "contacts missed by the scene as the contestant stores it, in single precision: what is left of them "
-     "is not due to storing. Empty where it decides by the given doubles"},
+     "contacts missed by the scene as the contestant stores it, in single precision: what is left of them is "
+     "not due to storing. Empty where it decides by the given doubles"},
     {"stored_false_contacts", text<&R::rounded_mesh_counts, &E::false_contacts>, optional, whole_number,
      "contacts made up, likewise"},
     {"stored_max_distance_error_of_diagonal",
      text<&R::rounded_mesh_counts, &E::max_distance_error_of_diagonal>, optional, length,
      "the largest error of a distance, likewise"},
     {"wrong_side", text<&R::counts, &E::wrong_side>, judged, whole_number,
-     "`nearest` with the option `side=on`, closed meshes: steps said to be inside, outside or on the "
-     "surface that are not; `undecided` is never wrong"},
+     "`nearest` with the option `side=on`, closed meshes: steps said to be inside, outside or on the surface "
+     "that are not; `undecided` is never wrong"},
     {"prepare_ns_p50", rounded<6, &R::prepare, &L::p50>, optional, finite,
      "with the option `prepare=true`: what was done after an answer for the next one is clocked apart, and "
      "half of these parts took at most this. It is in `ns_per_query` and the work, and not in `ns_p50` to "
@@ -233,27 +233,27 @@ constexpr auto columns = std::to_array<Column<R>>({
      "its samples, and where `steps` are a sample, each phase with its share of the trajectory"},
     {"ns_undisturbed_low", rounded<6, &R::throughput, &T::undisturbed, &U::low>, timed, positive,
      "lower end of the 95 % interval of `ns_undisturbed`, by bootstrap over the repetitions, and over the "
-     "blocks where `steps` are a sample. What differs from process to process comes on top: see the control"
-     " in `run.json`"},
+     "blocks where `steps` are a sample. What differs from process to process comes on top: see the control "
+     "in `run.json`"},
     {"ns_undisturbed_high", rounded<6, &R::throughput, &T::undisturbed, &U::high>, timed, positive,
      "upper end of this interval"},
     {"disturbed_share", rounded<6, &R::throughput, &T::disturbed_share>, timed, share,
      "the share of the samples of `ns_undisturbed` that took over 1.2 times their processor time"},
     {"decisions_checksum", hex<&R::decisions_checksum>, optional, checksum,
-     "checksum of contact or none, and for `nearest` of the triangle: all who claim exactness have the same"
-     " one for the same steps. Empty for others, and for those that name any of several triangles equally "
+     "checksum of contact or none, and for `nearest` of the triangle: all who claim exactness have the same "
+     "one for the same steps. Empty for others, and for those that name any of several triangles equally "
      "near"},
     {"judged", text<&R::counts, &E::judged>, judged, whole_number, "answers that the oracle judged"},
     {"beyond_tolerance", text<&R::counts, &E::beyond_tolerance>, judged, whole_number,
-     "steps whose distance is off by more than 1e-6 of the diagonal of the mesh's box, whatever is "
-     "declared: 0.2 micrometres on an object of 20 cm, where haptic devices resolve 1 to 55"},
+     "steps whose distance is off by more than 1e-6 of the diagonal of the mesh's box, whatever is declared: "
+     "0.2 micrometres on an object of 20 cm, where haptic devices resolve 1 to 55"},
     {"rounding", text<&R::counts, &E::rounding>, judged, whole_number,
      "steps whose distance is off by less than that, and by more than arithmetic in double must be: 48 "
      "roundings of the largest coordinate difference"},
     {"cold_l2_ns_p50", rounded<6, &R::cold_l2, &C::p50>, optional, positive,
      "with `--cold`: half of the queries took at most this after as much as twice the second-level cache was "
-     "walked over; runs of five steps, those before a run answered unclocked first, the clock's own cost "
-     "and misses included"},
+     "walked over; runs of five steps, those before a run answered unclocked first, the clock's own cost and "
+     "misses included"},
     {"cold_l2_ns_p99", p99_of_l2, optional, positive,
      "99 % of these took at most this; empty below 100 samples"},
     {"cold_l2_ns_p999", p999_of_l2, optional, positive,
@@ -277,8 +277,7 @@ constexpr auto columns = std::to_array<Column<R>>({
      "that ran it, as `--machine` takes it"},
     {"unfinished", text<&R::work, &W::brackets, &B::unfinished>, optional, whole_number,
      "with the option `budget`: answers that leave open whether a triangle is nearer than the one named. "
-     "They "
-     "tell a bracket, which holds the true distance; one that does not is `malformed`. Empty: all are "
+     "They tell a bracket, which holds the true distance; one that does not is `malformed`. Empty: all are "
      "finished"},
     {"bracket_p50", rounded<6, &R::work, &W::brackets, &B::p50>, optional, finite,
      "the median of how far the brackets' ends are apart, over the diagonal of the mesh's box; 0 where "

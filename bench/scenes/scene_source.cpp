@@ -62,9 +62,8 @@ void expect_a_file(const std::string& what) {
   std::vector<std::string> known;
   for (const BodySceneInfo& scene : body_scenes()) known.push_back(scene.name);
   throw std::invalid_argument(
-      fmt::format("scene \"{}\": no generated scene and no file has this name; "
-                  "did you mean {}?",
-                  what, support::near_names(what.substr(0, what.find(':')), known)));
+      fmt::format("scene \"{}\": no generated scene and no file has this name; did you mean {}?", what,
+                  support::near_names(what.substr(0, what.find(':')), known)));
 }
 
 GeneratedScene load_unmoved(const std::string& what, const std::vector<std::string>& packages) {

@@ -161,10 +161,10 @@ class UrdfReader {
       throw std::invalid_argument(fmt::format("mesh \"{}\": names no file of a package", address));
     const std::string name = path.substr(0, slash);
     if (const auto folder = packages_.folder_of(name)) return *folder / path.substr(slash + 1);
-    throw std::invalid_argument(fmt::format(
-        "mesh \"{}\": package \"{}\" is in neither ROS_PACKAGE_PATH nor AMENT_PREFIX_PATH: say where "
-        "it is, --package {}=DIR",
-        address, name, name));
+    throw std::invalid_argument(
+        fmt::format("mesh \"{}\": package \"{}\" is in neither ROS_PACKAGE_PATH nor AMENT_PREFIX_PATH: say "
+                    "where it is, --package {}=DIR",
+                    address, name, name));
   }
 
   std::filesystem::path folder_;

@@ -100,8 +100,8 @@ std::optional<MotionColumn> MotionNames::only(std::string_view name, const Fits&
     if (!fits(i)) continue;
     if (found)
       throw file_.error_at(
-          line_, fmt::format("the header names column {} twice: {} is column {}, {} is column {} "
-                             "(--columns x=COL,y=COL,z=COL[,time=COL] takes columns by number)",
+          line_, fmt::format("the header names column {} twice: {} is column {}, {} is column {} (--columns "
+                             "x=COL,y=COL,z=COL[,time=COL] takes columns by number)",
                              name, shown(found->name), found->index + 1, shown(trimmed(names_[i])), i + 1));
     found = MotionColumn{i, std::string(trimmed(names_[i]))};
   }

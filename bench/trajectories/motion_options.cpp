@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "bench/support/numbers.h"
+#include "bench/support/split.h"
 
 namespace touchmark::bench::trajectories {
 namespace {
@@ -61,12 +63,9 @@ double positive(const char* option, const std::string& text) {
 ChosenColumns parse_columns(const std::string& text) {
   ChosenColumns columns;
   std::array<std::optional<ColumnChoice>, 3> position;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string part = text.substr(begin, end - begin);
-    begin = end + 1;
+  for (const std::string_view part : support::split(text, ',')) {
     const std::size_t equals = std::min(part.find('='), part.size());
-    const std::string key = part.substr(0, equals);
+    const std::string_view key = part.substr(0, equals);
     std::optional<ColumnChoice>* const slot = key == "x"        ? &position[0]
                                               : key == "y"      ? &position[1]
                                               : key == "z"      ? &position[2]
@@ -76,7 +75,7 @@ ChosenColumns parse_columns(const std::string& text) {
                                    [&](const TimeKey& known) { return known.name == key; });
     if (equals == part.size() || (slot == nullptr && time == time_keys.end()))
       refuse_columns(text, fmt::format("\"{}\" is not KEY=COL with a known key", part));
-    const ColumnChoice choice = choice_of(text, part.substr(equals + 1));
+    const ColumnChoice choice = choice_of(text, std::string(part.substr(equals + 1)));
     if (slot != nullptr ? slot->has_value() : !add_time(columns, {choice, time->decimals}))
       refuse_columns(text, fmt::format("\"{}\" is one {} too many", part, key));
     if (slot != nullptr) *slot = choice;

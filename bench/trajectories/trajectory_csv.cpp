@@ -188,11 +188,10 @@ void MotionReader::check_times() {
     support::require_memory(fmt::format("trajectory {}: {:.0f} steps", motion_.name, steps),
                             bytes_a_tick * steps);
   } else if (gap > 0) {
-    throw file_.error_at(
-        lines_[gap],
-        fmt::format("column {}: {:.6g} s after the row before, longer than the usual interval: rows "
-                    "are not evenly spaced; --rate HZ resamples them",
-                    columns_.time->column.name, times[gap] - times[gap - 1]));
+    throw file_.error_at(lines_[gap],
+                         fmt::format("column {}: {:.6g} s after the row before, longer than the usual "
+                                     "interval: rows are not evenly spaced; --rate HZ resamples them",
+                                     columns_.time->column.name, times[gap] - times[gap - 1]));
   }
 }
 

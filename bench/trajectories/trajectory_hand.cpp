@@ -73,10 +73,10 @@ Options parse_options(const std::string& trajectory) {
     std::optional<double> value;
     if (key != std::end(keys) && name != word) value = value_of(*key, word.substr(name.size() + 1));
     if ((!kind && !value) || !seen.insert(kind ? "kind" : name).second)
-      throw std::invalid_argument(fmt::format(
-          "trajectory '{}': \"{}\" is unknown, out of range or one too many; write hand{}, F from 0 to 100, "
-          "LENGTH as 4.5um or 20cm",
-          trajectory, word, hand_words));
+      throw std::invalid_argument(
+          fmt::format("trajectory '{}': \"{}\" is unknown, out of range or one too many; write hand{}, F "
+                      "from 0 to 100, LENGTH as 4.5um or 20cm",
+                      trajectory, word, hand_words));
     if (kind) options.kind = *kind;
     if (value) options.*key->value = *value;
   }

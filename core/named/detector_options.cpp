@@ -83,23 +83,24 @@ std::vector<Option> options_of(GridGroupForm& form) {
 }
 
 std::vector<Option> options_of(SphereClusterForm& form) {
-  return {choice<bool>("lookup", form.scans, {{"tree", false}, {"scan", true}},
-                       "tree: a hierarchy, nearest first; scan: every sphere, as published"),
-          length("clustering", form.fast.clustering,
-                 "distance between centroids that share a sphere; 0: a sphere each")
-              .in_code("clustering"),
-          choice<bool>("precise", form.published.precise, {{"true", true}, {"false", false}},
-                       "false: the published fast level alone, spheres for triangles")
-              .in_code("precise"),
-          certified_option(form.fast.certified),
-          build_option(form.fast.construction, "SphereCluster::Construction",
-                       "tree; lazy: parts of it are built, and distances sampled, by the first queries that "
-                       "want them"),
-          choice<Simd>("simd", form.fast.widest,
-                       {{"avx2", Simd::avx2}, {"avx512", Simd::avx2}, {"portable", Simd::portable}},
-                       "tree: no wider instructions than these, nor than the processor's; avx512 is avx2")
-              .in_code("widest", "Simd"),
-          threads_option(form.fast.threads)};
+  return {
+      choice<bool>("lookup", form.scans, {{"tree", false}, {"scan", true}},
+                   "tree: a hierarchy, nearest first; scan: every sphere, as published"),
+      length("clustering", form.fast.clustering,
+             "distance between centroids that share a sphere; 0: a sphere each")
+          .in_code("clustering"),
+      choice<bool>("precise", form.published.precise, {{"true", true}, {"false", false}},
+                   "false: the published fast level alone, spheres for triangles")
+          .in_code("precise"),
+      certified_option(form.fast.certified),
+      build_option(
+          form.fast.construction, "SphereCluster::Construction",
+          "tree; lazy: parts of it are built, and distances sampled, by the first queries that want them"),
+      choice<Simd>("simd", form.fast.widest,
+                   {{"avx2", Simd::avx2}, {"avx512", Simd::avx2}, {"portable", Simd::portable}},
+                   "tree: no wider instructions than these, nor than the processor's; avx512 is avx2")
+          .in_code("widest", "Simd"),
+      threads_option(form.fast.threads)};
 }
 
 }  // namespace touchmark::named

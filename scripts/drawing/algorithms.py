@@ -13,7 +13,7 @@ import tempfile
 
 import numpy
 
-from . import detectors, layout
+from . import detectors, layout, raster
 
 INK, PALE = "#202020", "0.8"
 METHODS = {"butterfly": "#b0508c", "catmull-clark-linear": "#555555", "mid-point": "#3f97d0", "loop": "#c04a00",
@@ -51,15 +51,7 @@ class Program:
     def mesh(self, mesh, method="mid-point", levels=0):
         """Triangles (n, 3, 3) of a mesh after `levels` subdivisions."""
         self.run("mesh", "subdivide", "--mesh", mesh, "--method", method, "--levels", levels, "--output", "out.off")
-        return read_off(self.folder / "out.off")
-
-
-def read_off(path):
-    words = path.read_text(encoding="utf-8").split()
-    vertices, faces = int(words[1]), int(words[2])
-    positions = numpy.array(words[4:4 + 3 * vertices], float).reshape(-1, 3)
-    corners = numpy.array(words[4 + 3 * vertices:4 + 3 * vertices + 4 * faces], int).reshape(-1, 4)[:, 1:]
-    return positions[corners]
+        return raster.corners_in(self.folder / "out.off")
 
 
 def write_off(path, triangles):

@@ -47,17 +47,8 @@ def read(path):
     with open(path.with_name("audit_points.csv"), newline="", encoding="utf-8") as file:
         for record in csv.DictReader(file):
             points[record["body"], record["detector"], record["options"]].append(record)
-    meshes = {body: corners_in(path.parent / "bodies" / f"{number}.off") for number, body in enumerate(unique(row.body for row in rows), 1)}
+    meshes = {body: raster.corners_in(path.parent / "bodies" / f"{number}.off") for number, body in enumerate(unique(row.body for row in rows), 1)}
     return rows, points, meshes
-
-
-def corners_in(path):
-    """(n, 3, 3), of a file that touchmark wrote."""
-    words = path.read_text(encoding="utf-8").split()
-    vertices, triangles = int(words[1]), int(words[2])
-    numbers = numpy.array(words[4:], dtype=float)
-    faces = numbers[3 * vertices:].reshape(triangles, 4)[:, 1:].astype(int)
-    return numbers[:3 * vertices].reshape(vertices, 3)[faces]
 
 
 def column(points, name):

@@ -55,33 +55,55 @@ def surface_picture(folder, method, level, what, frame, pixels):
     return picture, len(spheres)
 
 
+def sheet(plt, columns, rows, size, cell):
+    """A figure of (label, what) columns and rows: cell(column, row) gives a picture and the words below it, or None."""
+    figure, axes = plt.subplots(len(rows), len(columns), squeeze=False, figsize=size)
+    for line, (row_label, row) in zip(axes, rows):
+        line[0].set_ylabel(row_label, fontsize=11)
+        for panel, (_, column) in zip(line, columns):
+            drawn = cell(column, row)
+            if drawn is None:
+                panel.set_visible(False)
+                continue
+            show(panel, drawn[0])
+            panel.set_xlabel(drawn[1], fontsize=9)
+    for panel, (label, _) in zip(axes[0], columns):
+        panel.set_title(label, fontsize=11)
+    return figure
+
+
+def named(levels):
+    return [("original" if level == 0 else f"level {level}", level) for level in levels]
+
+
+BY_METHOD = [(label, method) for method, label in METHODS]
+
+
+def title_above(figure, title):
+    figure.suptitle(title, fontsize=13, fontweight="bold", y=0.995, va="top")
+    figure.tight_layout(rect=(0, 0, 1, 0.99), h_pad=0.6, w_pad=0.4)
+    return figure
+
+
+def with_room(points):
+    """Points of a frame that leaves room for what stands out."""
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    return middle + 1.12 * (points - middle)
+
+
 def draw_surfaces(plt, directory, what, unit, title, pixels=PIXELS):
     """The paper's sheet: a column a method, a row a level; the original is drawn once and shown in every column."""
     folder = folder_of(directory)
     frame = read_triangles(folder / "original-0-mesh.csv").reshape(-1, 3)
-    if what != "mesh":  # room for what stands out
-        middle = (frame.min(axis=0) + frame.max(axis=0)) / 2
-        frame = middle + 1.12 * (frame - middle)
+    frame = frame if what == "mesh" else with_room(frame)
     levels = 1 + max(int(path.name.split("-mesh")[0].rsplit("-", 1)[1]) for path in folder.glob("*-mesh.csv"))
-    figure, axes = plt.subplots(levels, len(METHODS), squeeze=False, figsize=(2.5 * len(METHODS), 2.75 * levels + 0.5))
     original = surface_picture(folder, "original", 0, what, frame, pixels)
-    for column, (method, label) in enumerate(METHODS):
-        for level in range(levels):
-            cell = axes[level][column]
-            drawn = surface_picture(folder, method, level, what, frame, pixels) if level else original
-            if drawn is None:
-                cell.set_visible(False)
-                continue
-            picture, count = drawn
-            show(cell, picture)
-            cell.set_xlabel(f"{count:,} {unit}", fontsize=9)
-            if level == 0:
-                cell.set_title(label, fontsize=11)
-            if column == 0:
-                cell.set_ylabel("original" if level == 0 else f"level {level}", fontsize=11)
-    figure.suptitle(title, fontsize=13, fontweight="bold", y=0.995, va="top")
-    figure.tight_layout(rect=(0, 0, 1, 0.99), h_pad=0.6, w_pad=0.4)
-    return figure
+
+    def cell(method, level):
+        drawn = surface_picture(folder, method, level, what, frame, pixels) if level else original
+        return drawn and (drawn[0], f"{drawn[1]:,} {unit}")
+
+    return title_above(sheet(plt, BY_METHOD, named(range(levels)), (2.5 * len(METHODS), 2.75 * levels + 0.5), cell), title)
 
 
 def facing(point, points):
@@ -218,46 +240,31 @@ def draw_grouping(plt, directory, pixels=PIXELS):
 def draw_closeups(plt, directory, title, pixels=PIXELS):
     """A row a level of the same small part of every surface, where the shapes of triangles can be told."""
     folder = folder_of(directory)
-    original = read_triangles(folder / "original-0-mesh.csv")
-    points = original.reshape(-1, 3)
-    middle = points[numpy.argmax(points @ FRONT[2])]
-    frame = around(middle, points, 0.28)
-    levels = range(3)
-    figure, axes = plt.subplots(len(levels), len(METHODS), squeeze=False, figsize=(2.5 * len(METHODS), 2.6 * len(levels) + 0.5))
-    for column, (method, label) in enumerate(METHODS):
-        for level in levels:
-            path = folder / f"{method if level else 'original'}-{level}-mesh.csv"
-            if not path.exists():
-                axes[level][column].set_visible(False)
-                continue
-            picture = raster.Picture(frame, pixels, FRONT, margin=0)
-            picture.triangles(read_triangles(path), lines=True)
-            show(axes[level][column], picture)
-            if level == 0:
-                axes[level][column].set_title(label, fontsize=11)
-            if column == 0:
-                axes[level][column].set_ylabel("original" if level == 0 else f"level {level}", fontsize=11)
-    figure.suptitle(title, fontsize=13, fontweight="bold", y=0.995, va="top")
-    figure.tight_layout(rect=(0, 0, 1, 0.99), h_pad=0.6, w_pad=0.4)
-    return figure
+    points = read_triangles(folder / "original-0-mesh.csv").reshape(-1, 3)
+    frame = around(points[numpy.argmax(points @ FRONT[2])], points, 0.28)
+
+    def cell(method, level):
+        path = folder / f"{method if level else 'original'}-{level}-mesh.csv"
+        if not path.exists():
+            return None
+        picture = raster.Picture(frame, pixels, FRONT, margin=0)
+        picture.triangles(read_triangles(path), lines=True)
+        return picture, ""
+
+    return title_above(sheet(plt, BY_METHOD, named(range(3)), (2.5 * len(METHODS), 8.3), cell), title)
 
 
 def draw_spheres_side_by_side(plt, directory, title, pixels=PIXELS):
     """LS3's spheres, above without and below with clustering, a column a level."""
     folder = folder_of(directory)
-    frame = read_triangles(folder / "original-0-mesh.csv").reshape(-1, 3)
-    middle = (frame.min(axis=0) + frame.max(axis=0)) / 2
-    frame = middle + 1.12 * (frame - middle)
-    levels = [level for level in range(6) if level == 0 or (folder / f"ls3-{level}-mesh.csv").exists()]
-    figure, axes = plt.subplots(2, len(levels), squeeze=False, figsize=(2.6 * len(levels) + 0.4, 6))
-    for row, (what, name) in enumerate((("spheres", "without clustering"), ("clustered", "with clustering"))):
-        for column, level in enumerate(levels):
-            picture, count = surface_picture(folder, "ls3", level, what, frame, pixels)
-            show(axes[row][column], picture)
-            axes[row][column].set_xlabel(f"{count:,} spheres", fontsize=9)
-            if row == 0:
-                axes[row][column].set_title("original" if level == 0 else f"level {level}", fontsize=11)
-        axes[row][0].set_ylabel(name, fontsize=11)
+    frame = with_room(read_triangles(folder / "original-0-mesh.csv").reshape(-1, 3))
+    levels = named(level for level in range(6) if level == 0 or (folder / f"ls3-{level}-mesh.csv").exists())
+
+    def cell(level, what):
+        picture, count = surface_picture(folder, "ls3", level, what, frame, pixels)
+        return picture, f"{count:,} spheres"
+
+    figure = sheet(plt, levels, [("without clustering", "spheres"), ("with clustering", "clustered")], (2.6 * len(levels) + 0.4, 6), cell)
     figure.suptitle(title, fontsize=13, fontweight="bold")
     figure.tight_layout()
     return figure

@@ -146,6 +146,15 @@ def by_size(size, max_cells=4_000_000):
         begin = end
 
 
+def corners_in(path):
+    """(n, 3, 3) of an .off file that touchmark wrote."""
+    words = path.read_text(encoding="utf-8").split()
+    vertices, triangles = int(words[1]), int(words[2])
+    numbers = numpy.array(words[4:], dtype=float)
+    faces = numbers[3 * vertices:].reshape(triangles, 4)[:, 1:].astype(int)
+    return numbers[:3 * vertices].reshape(vertices, 3)[faces]
+
+
 def box_corners(low, high):
     """(n, 8, 3); corner 4x + 2y + z."""
     bounds = numpy.stack([low, high], axis=1)

@@ -107,12 +107,11 @@ TEST(TriangleMesh, NormalizedRefusesAPointAndWhatOverflows) {
               TriangleMesh({{1, 2, 3}}, {{0, 0, 0}}).normalized();
             }),
             "the mesh cannot be normalised: all its vertices coincide");
-  EXPECT_EQ(
-      refusal([] {
-        TriangleMesh({{-1e300, 0, 0}, {1e300, 0, 0}}, {{0, 1, 1}}).normalized();
-      }),
-      "the mesh cannot be normalised: its box from (-1e+300, 0, 0) to (1e+300, 0, 0) has a diagonal beyond "
-      "double");
+  EXPECT_EQ(refusal([] {
+              TriangleMesh({{-1e300, 0, 0}, {1e300, 0, 0}}, {{0, 1, 1}}).normalized();
+            }),
+            "the mesh cannot be normalised: its box from (-1e+300, 0, 0) to (1e+300, 0, 0) has a diagonal "
+            "beyond double");
 }
 
 }  // namespace

@@ -9,10 +9,9 @@
 namespace touchmark::bench::cli {
 
 void add_suite(CLI::App& command, bool& suite, std::string& cells, std::string& minutes) {
-  CLI::Option* const flag = command.add_flag(
-      "--suite", suite,
-      "a score over many meshes, motions, speeds, queries and reaches instead; with --mesh on "
-      "that mesh alone");
+  CLI::Option* const flag = command.add_flag("--suite", suite,
+                                             "a score over many meshes, motions, speeds, queries and reaches "
+                                             "instead; with --mesh on that mesh alone");
   add_value(command, "--cells", cells, "N", "of the suite: how many a mesh, or all; default: 6, quick 2")
       ->needs(flag);
   add_value(command, "--minutes", minutes, "M",

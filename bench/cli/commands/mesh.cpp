@@ -118,11 +118,9 @@ void add_info(CLI::App& mesh_command) {
     if (!file.remark.empty()) members["remark"] = file.remark;
     nlohmann::ordered_json named{{"mesh", options->mesh}};
     named.update(members);
-    support::StandardOutput out;
-    out.write(options->json
-                  ? named.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"
-                  : lines_of(members));
-    out.finish();
+    support::StandardOutput().write(
+        options->json ? named.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"
+                      : lines_of(members));
   });
 }
 

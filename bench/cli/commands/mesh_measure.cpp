@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +18,7 @@
 #include "bench/meshes/meshes.h"
 #include "bench/support/files/standard_output.h"
 #include "bench/support/numbers.h"
+#include "bench/support/split.h"
 #include "core/sphere_cluster/published/triangle_spheres.h"
 #include "core/subdivision/mesh_measures.h"
 
@@ -33,15 +35,13 @@ struct MeasureOptions {
 /// "x,y,z".
 Vec3 parse_center(const std::string& text) {
   Vec3 center = Vec3::Zero();
-  std::size_t begin = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t comma = axis < 2 ? text.find(',', begin) : text.size();
+  const std::vector<std::string_view> parts = support::split(text, ',');
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::optional<double> number =
-        comma == std::string::npos ? std::nullopt : support::parse_number(text.substr(begin, comma - begin));
+        parts.size() == 3 ? support::parse_number(parts[axis]) : std::nullopt;
     if (!number || !std::isfinite(*number))
       throw std::invalid_argument(fmt::format("--center {}: three numbers, as 0,0.5,-1", text));
-    center[axis] = *number;
-    begin = comma + 1;
+    center[static_cast<Eigen::Index>(axis)] = *number;
   }
   return center;
 }
@@ -92,9 +92,7 @@ void add_mesh_measure(CLI::App& mesh_command) {
     const Vec3 center = parse_center(options->center);
     nlohmann::ordered_json measures =
         measures_of(meshes::load_mesh(options->mesh, options->normalize), center);
-    support::StandardOutput out;
-    out.write(options->json ? measures.dump(2) + "\n" : lines_of(measures));
-    out.finish();
+    support::StandardOutput().write(options->json ? measures.dump(2) + "\n" : lines_of(measures));
   });
 }
 

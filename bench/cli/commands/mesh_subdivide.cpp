@@ -57,8 +57,7 @@ Request check(const SubdivideOptions& options) {
   const std::optional<support::Length> threshold = support::parse_length(options.threshold);
   if (!threshold) {
     throw std::invalid_argument(fmt::format(
-        "--threshold {}: a length of 0 or more in mesh units, or a percentage of the box diagonal "
-        "(1%)",
+        "--threshold {}: a length of 0 or more in mesh units, or a percentage of the box diagonal (1%)",
         options.threshold));
   }
   request.threshold = *threshold;
@@ -125,9 +124,7 @@ void subdivide_into_file(const SubdivideOptions& options) {
   warn_of_seams(options, coarse);
   const TriangleMesh fine = subdivide(coarse, request.subdivision);
   meshes::write_mesh(fine, options.output);
-  support::StandardOutput out;
-  out.write(summary(options, request.subdivision, coarse, fine));
-  out.finish();
+  support::StandardOutput().write(summary(options, request.subdivision, coarse, fine));
 }
 
 }  // namespace

@@ -153,8 +153,7 @@ void add_query(CLI::App& program, ProgramContext& context) {
   command
       ->add_option("--session", options->session,
                    "of --step: replayed answers all steps before it first, fresh none; where the other one "
-                   "has another "
-                   "answer, that is said")
+                   "has another answer, that is said")
       ->check(CLI::IsMember({"replayed", "fresh"}))
       ->needs(step)
       ->capture_default_str();
@@ -165,11 +164,10 @@ void add_query(CLI::App& program, ProgramContext& context) {
       ->excludes("--csv");
   add_worker_selectors(*command, options->workers);
   command->footer(
-      "Example: touchmark query --mesh bunny --trajectory approach --detector grid-group --reach inf "
-      "--csv answers.csv\n"
+      "Example: touchmark query --mesh bunny --trajectory approach --detector grid-group --reach inf --csv "
+      "answers.csv\n"
       "         touchmark query --mesh part.stl --trajectory hand.csv --columns x=2,y=3,z=4,time_ms=1 --rate "
-      "1000 "
-      "--detector grid-group\n"
+      "1000 --detector grid-group\n"
       "         touchmark query --scene parts.json --poses parts.csv --detector sphere-cluster --trajectory "
       "hand.csv\n"
       "With --scene a last column names the body.\n"

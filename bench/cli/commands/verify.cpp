@@ -159,10 +159,9 @@ void add_verify(CLI::App& program, ProgramContext& context) {
   add_scene_selectors(*command, options->selectors);
   add_unit(*command, options->selectors.unit);
   add_value(*command, "--out", options->out, "DIR", "folder for results.csv");
-  add_value(
-      *command, "--reproduce", options->reproduce, "DIR",
-      "folder for scripts that show what plug-ins in Python or JavaScript answer wrongly: one a kind of "
-      "fault and mesh, which is cut to the triangles that still show it");
+  add_value(*command, "--reproduce", options->reproduce, "DIR",
+            "folder for scripts that show what plug-ins in Python or JavaScript answer wrongly: one a kind "
+            "of fault and mesh, which is cut to the triangles that still show it");
   add_junit(*command, options->reports);
   add_markdown(*command, options->reports);
   add_worker_selectors(*command, options->workers);

@@ -123,9 +123,7 @@ class AuditCommand {
   }
 
   int report() {
-    support::StandardOutput out;
-    out.write(audit::audit_table(rows_) + audit::audit_findings(rows_));
-    out.finish();
+    support::StandardOutput().write(audit::audit_table(rows_) + audit::audit_findings(rows_));
     if (frame_.folder) {
       frame_.folder->write_file("audit.csv", audit::audit_csv(rows_));
       frame_.folder->write_file("audit_points.csv", points_);
@@ -176,11 +174,9 @@ void add_audit(CLI::App& program, ProgramContext& context) {
   add_worker_selectors(*command, options->workers);
   command->footer(
       "Asks near each body's surface, in its cavities, inside and beyond, and compares with exact answers. "
-      "An "
-      "engine\nthat fills a closed body is taken for one of solids, where all that is inside is contact. "
-      "Exit "
-      "status 1 if an\nanswer is off by more than the tolerance or an engine fails; 4 if it refuses every "
-      "body.\n"
+      "An engine\nthat fills a closed body is taken for one of solids, where all that is inside is contact. "
+      "Exit status 1 if an\nanswer is off by more than the tolerance or an engine fails; 4 if it refuses "
+      "every body.\n"
       "Example: touchmark audit robot.urdf --plugin mine.py --out out/audit\n"
       "         touchmark audit part.stl --unit mm --detector bullet --tolerance 0.05\n");
   command->final_callback([options, &context] { context.status = AuditCommand(context, *options).run(); });

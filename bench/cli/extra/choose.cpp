@@ -239,7 +239,6 @@ int ChooseCommand::report() const {
   const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
   if (!ranked.empty()) out.write('\n' + code(ranked));
   if (time_is_up_) out.write('\n' + time_is_up_text());
-  out.finish();
   if (!ranked.empty()) return support::exit_done;
   return unmeasured_.empty() ? support::exit_check_failed : support::exit_inconclusive;
 }
@@ -268,11 +267,10 @@ int ChooseCommand::run() {
         fmt::format("nothing is recommended by {} of {} motions", rows_.size(), workload_.traces.size()));
   if (time_is_up_ &&
       std::ranges::none_of(candidates_, [](const auto& one) { return one.times.has_value(); })) {
-    fmt::print(
-        stderr,
-        "touchmark: nothing is recommended: no candidate was measured within {:g} minutes; allow more by "
-        "--minutes\n",
-        minutes());
+    fmt::print(stderr,
+               "touchmark: nothing is recommended: no candidate was measured within {:g} minutes; allow more "
+               "by --minutes\n",
+               minutes());
     return support::exit_inconclusive;
   }
   return report();

@@ -137,10 +137,10 @@ const gate::BaselineRow& Gate::expected(const gate::GatePair& pair) const {
 void Gate::expect_same_content(const gate::BaselineRow& row, const gate::GatePair& pair) const {
   const auto expect = [&](const char* what, const std::string& name, std::uint64_t then, std::uint64_t now) {
     if (then == now) return;
-    throw std::invalid_argument(fmt::format(
-        "{}: it was written for another {} \"{}\" (fnv1a {:016x}, now {:016x}); write it anew with "
-        "--write-baseline",
-        options_.baseline, what, name, then, now));
+    throw std::invalid_argument(
+        fmt::format("{}: it was written for another {} \"{}\" (fnv1a {:016x}, now {:016x}); write it anew "
+                    "with --write-baseline",
+                    options_.baseline, what, name, then, now));
   };
   expect("mesh", row.key.mesh, row.mesh_hash, mesh_hash_);
   expect("trajectory, radius or reach", row.key.trajectory, row.trace_hash,

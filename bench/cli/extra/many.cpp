@@ -104,10 +104,8 @@ int run_many(const ProgramContext& context, const ManyCommandOptions& options) {
       }
     }
   });
-  support::StandardOutput out;
-  out.write(many::many_table(rows));
+  support::StandardOutput().write(many::many_table(rows));
   if (frame.folder) frame.folder->write_file("many.csv", many::many_csv(rows));
-  out.finish();
   int status = finished ? support::exit_done : interrupted(rows.size());
   for (const many::ManyRow& row : rows) {
     if (row.differing == 0) continue;

@@ -136,9 +136,7 @@ void Planner::add_mesh(batch::BatchMesh planned,
 void run(const contestants::Roster& roster, const PlanOptions& options) {
   const batch::Manifest manifest = Planner(roster, options).plan();
   if (options.out.empty()) {
-    support::StandardOutput out;
-    out.write(manifest.json());
-    out.finish();
+    support::StandardOutput().write(manifest.json());
     return;
   }
   support::AtomicFile file(options.out);

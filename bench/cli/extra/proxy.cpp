@@ -175,10 +175,9 @@ void add_proxy(CLI::App& program, ProgramContext& context) {
             "which of ours answers methods that claim never to cross");
   add_value(*command, "--mesh", options->mesh, "MESH",
             "instead of families: a mesh by name or a file, with --trajectory");
-  add_value(
-      *command, "--trajectory", options->trajectory, "T",
-      "a name (touchmark list) or a motion file: the goals; the proxy starts at the first that is free, or "
-      "where none is free outward from the first");
+  add_value(*command, "--trajectory", options->trajectory, "T",
+            "a name (touchmark list) or a motion file: the goals; the proxy starts at the first that is "
+            "free, or where none is free outward from the first");
   add_value(*command, "--radius", options->radius, "LENGTH",
             "the ball's, with --mesh; mesh units or % of the box diagonal");
   add_value(*command, "--trace", options->trace, "FILE",
@@ -189,8 +188,8 @@ void add_proxy(CLI::App& program, ProgramContext& context) {
   command->footer(
       lists() +
       "Exit status 1 if a method that claims never to cross crossed, or came nearer than the radius.\n"
-      "Example: touchmark proxy --method god-object --method virtual-proxy --family cracks --ticks "
-      "20000 --out results/today\n");
+      "Example: touchmark proxy --method god-object --method virtual-proxy --family cracks --ticks 20000 "
+      "--out results/today\n");
   command->final_callback([options, &context] { context.status = ProxyCommand(context, *options).run(); });
 }
 

@@ -134,11 +134,10 @@ void BatchRun::run_mesh(const batch::BatchMesh& planned) {
   if (missing.empty()) return;
   if (missing.size() < planned.jobs.size() && effort_.repetitions > 0) {
     frame_.progress.clear();
-    fmt::print(
-        stderr,
-        "touchmark: {}, {}: {} of {} jobs were finished before; the others get another run_id: compare times "
-        "within one\n",
-        planned.mesh, planned.trajectory, planned.jobs.size() - missing.size(), planned.jobs.size());
+    fmt::print(stderr,
+               "touchmark: {}, {}: {} of {} jobs were finished before; the others get another run_id: "
+               "compare times within one\n",
+               planned.mesh, planned.trajectory, planned.jobs.size() - missing.size(), planned.jobs.size());
   }
   const workload::Workload workload = planned_workload(planned);
   results::RunDescription description = description_of(planned);

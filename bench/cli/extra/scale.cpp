@@ -246,8 +246,8 @@ void add_scale(CLI::App& program, ProgramContext& context) {
   CLI::App* command = add_command(program, "scale");
   add_selectors(*command, context, options->selectors);
   command->get_option("--mesh")->take_all()->description(
-      "noisy-sphere (the default) or soup in each of the sizes, dragon in its resolutions, or a "
-      "mesh as it is; repeatable");
+      "noisy-sphere (the default) or soup in each of the sizes, dragon in its resolutions, or a mesh as it "
+      "is; repeatable");
   add_value(*command, "--sizes", options->sizes, "N,N,...",
             fmt::format("numbers of triangles; default: {}, with --quick {}", default_sizes, quick_sizes));
   add_value(*command, "--limit-seconds", options->limit, "S",

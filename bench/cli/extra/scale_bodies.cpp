@@ -92,14 +92,12 @@ int run_scale_bodies(const ProgramContext& context, const ScaleBodiesOptions& op
       }
     }
   });
-  support::StandardOutput out;
-  out.write(scaling::bodies_table(rows));
+  support::StandardOutput().write(scaling::bodies_table(rows));
   if (frame.folder && !runs.empty()) {
     frame.folder->write_file("bodies.csv", scaling::bodies_csv(rows));
     frame.folder->write_file("bodies_growth.csv", scaling::bodies_growth_csv(scaling::growth_of(rows)));
     frame.folder->write_file("run.json", results::joined_run_json(runs, finished));
   }
-  out.finish();
   if (!finished) return interrupted(rows.size());
   return status_of(rows, context.roster);
 }

@@ -120,13 +120,11 @@ std::string reference_note(const TuneOptions& options, const TriangleMesh& mesh,
   if (sharp.share >= papers::mostly_sharp)
     return fmt::format(
         "error: against the mesh as it is, since {}: subdivision would round them. --reference FINE names "
-        "what is "
-        "true.\n",
+        "what is true.\n",
         edges);
   std::string text = fmt::format(
       "error: against LS3's own limit surface ({} triangles), not against the object: --reference FINE names "
-      "a scan or "
-      "a CAD tessellation of that.\n",
+      "a scan or a CAD tessellation of that.\n",
       result.reference_triangles);
   if (sharp.count > 0)
     text += fmt::format("warning: {}; if these are corners of the object, subdivision rounds them.\n", edges);
@@ -157,7 +155,6 @@ int run(const ProgramContext& context, const TuneOptions& options) {
   const std::string rising = papers::rising_error_note(result);
   if (!rising.empty()) out.write(rising + "\n");
   out.write("\n" + table_of(result, mesh.diagonal(), rate));
-  out.finish();
   return tuned.published || tuned.fast ? support::exit_done : support::exit_check_failed;
 }
 
@@ -174,10 +171,9 @@ void add_tune(CLI::App& program, ProgramContext& context) {
   add_list(*command, "--method", options->methods, "METHOD", "of subdivision, repeatable; without it ls3");
   add_value(*command, "--levels", options->levels, "N",
             "up to how many; without it 3, and more while the rate holds");
-  add_value(
-      *command, "--reference", options->reference, "MESH",
-      "what errors are measured against: a finer mesh of the same object, in the same place; without it "
-      "LS3's limit surface, or the mesh itself where it has sharp edges");
+  add_value(*command, "--reference", options->reference, "MESH",
+            "what errors are measured against: a finer mesh of the same object, in the same place; without "
+            "it LS3's limit surface, or the mesh itself where it has sharp edges");
   add_value(*command, "--threshold", options->threshold, "LENGTH",
             "only longer edges split: mesh units or % of the diagonal");
   add_list(*command, "--clustering", options->clusterings, "LENGTH",

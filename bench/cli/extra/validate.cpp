@@ -197,8 +197,7 @@ void add_validate(CLI::App& program, ProgramContext& context) {
   add_value(*command, "path", *paths, "FILE|DIR",
             "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, many.csv, bodies.csv, "
             "audit.csv, run.json, steps.bin, visited.json, or folders that hold some; other CSV files are "
-            "checked for "
-            "their form")
+            "checked for their form")
       ->required();
   command->footer(
       "Prints a line for each fault: file, line, column, value, and what is wrong. Exit status 1 if there is "

@@ -20,10 +20,9 @@ ContestantInfo aabb_tree_entry() {
   info.accuracy = "exact; precision=float: approximate; budget!=0: conservative";
   info.queries = queries_of<AabbTree>();
   info.options = options_with<AabbTree::Options>(
-      {{"leaf_size",
-        choice("precision", precisions,
-               "float: mesh, boxes, kernel and distances in single precision; touches and nearest, "
-               "no side, nothing certified")},
+      {{"leaf_size", choice("precision", precisions,
+                            "float: mesh, boxes, kernel and distances in single precision; touches and "
+                            "nearest, no side, nothing certified")},
        {"threads", updated_option()},
        {"threads", budget_option()}});
   info.build = [=](const TriangleMesh& mesh, const OptionValues& values) {

@@ -66,10 +66,9 @@ void tell_overhead() {
     one = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
   }
   std::ranges::nth_element(took, took.begin() + times / 2);
-  remark(
-      fmt::format("of each of its times {:.1f} us are the way to {} and back, as the median of {} empty "
-                  "questions has it",
-                  took[times / 2], script()->language, times));
+  remark(fmt::format(
+      "of each of its times {:.1f} us are the way to {} and back, as the median of {} empty questions has it",
+      took[times / 2], script()->language, times));
   script()->overhead_told = true;
 }
 

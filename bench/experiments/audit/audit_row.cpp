@@ -99,8 +99,8 @@ constexpr auto columns = std::to_array<results::Column<R>>({
     {"hull_share", rounded<4, &R::hull_share>, optional, results::kinds::share,
      "of the answers in cavities, those that are the convex hull's and not the mesh's"},
     {"shape", text<&R::shape>, optional, shape_kind,
-     "what the engine takes the body for, from 95 % of the answers on: its convex hull by `hull_share`, or "
-     "a solid, whose inside is all contact"},
+     "what the engine takes the body for, from 95 % of the answers on: its convex hull by `hull_share`, or a "
+     "solid, whose inside is all contact"},
     {"status", text<&R::status>, always, status_kind,
      "`differs` beyond the tolerance: a contact made up or missed, or a distance"},
 });

@@ -110,8 +110,8 @@ Question question_about_bodies(const workload::Workload& workload, workload::Que
 std::string no_class(const contestants::ContestantInfo& info, const std::string& contestant) {
   return info.scenes_only
              ? fmt::format(
-                   "// {} is no class of the library ({}); bench/contestants/plain_scenes.h holds the "
-                   "calls that were measured.\n",
+                   "// {} is no class of the library ({}); bench/contestants/plain_scenes.h holds the calls "
+                   "that were measured.\n",
                    contestant, info.summary)
              : fmt::format(
                    "// {} is another library ({}); baselines/{} holds the calls that were measured.\n",
@@ -142,8 +142,7 @@ std::string scene_code_for(const contestants::ContestantInfo& info, const contes
   for (const std::string& header : headers) text += fmt::format("#include <touchmark/{}.h>\n", header);
   text += fmt::format(
       "\nclass HapticContacts {{\n public:\n"
-      "  using Scene = touchmark::Scene<{0}>;\n\n{5}"
-      "  // Any number of bodies may have the shape.\n"
+      "  using Scene = touchmark::Scene<{0}>;\n\n{5}  // Any number of bodies may have the shape.\n"
       "  touchmark::ShapeId add_shape(touchmark::TriangleMesh mesh) {{\n"
       "    const {0}::Options options = options_for(mesh);\n"
       "    return scene_.add_shape(touchmark::Shape<{0}>::build(std::move(mesh), options));\n  }}\n"
@@ -189,8 +188,8 @@ std::string code_for(const contestants::Roster& roster, const contestants::Conte
   text += fmt::format(
       "\nclass HapticContacts {{\n public:\n"
       "  explicit HapticContacts(const touchmark::TriangleMesh& mesh)\n"
-      "      : detector_({}::build(mesh, options_for(mesh))) {{}}\n\n{}"
-      "  // Once a tick, by the thread of one haptic point.\n"
+      "      : detector_({}::build(mesh, options_for(mesh))) {{}}\n\n{}  // Once a tick, by the thread of "
+      "one haptic point.\n"
       "  {} ask({}) noexcept {{\n    return {};\n  }}\n",
       detector, proxy.place, question.answer, question.parameters, question.call);
   if (is_on(spec.values, "prepare") && library.has("prepare"))

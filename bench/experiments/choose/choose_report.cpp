@@ -97,15 +97,14 @@ std::string recommendation(const Asked& asked, const std::vector<Candidate>& can
   std::string text = fmt::format(
       "recommended: {}\n"
       "reason: no wrong answer among {}; at most {} us for 99.9 % of warm queries and {} us for 99 % of "
-      "those "
-      "with all caches emptied ({}), {} times within the share; {} MB, built in {} ms\n",
+      "those with all caches emptied ({}), {} times within the share; {} MB, built in {} ms\n",
       best.contestant(), best.judged, us(times.warm_p999), us(times.cold_p99), times.motion,
       figure(margin_usual(times, asked.limits)), megabytes(static_cast<double>(best.bytes.value_or(0))),
       figure(best.build_ms.value_or(0)));
   if (margin_worst(times, asked.limits) < 1)
     text += fmt::format(
-        "note: the slowest query took {} us, over the share; touchmark servo tells whether a "
-        "loop misses ticks\n",
+        "note: the slowest query took {} us, over the share; touchmark servo tells whether a loop misses "
+        "ticks\n",
         us(times.worst()));
   if (ranked.size() == 1) return text + "runner-up: none, no other candidate holds\n";
   const Candidate& second = candidates[ranked[1]];

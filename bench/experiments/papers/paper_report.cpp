@@ -12,11 +12,8 @@ std::string report_machine() {
   const results::BuildInfo& build = results::build_info();
   return fmt::format(
       "Measured {} on {} ({} cores, load {:.2f}), {} build by {}, commit {}. Times are of this machine; only "
-      "their "
-      "ratios carry over. Each is a median, in processor time, over rounds in which all detectors took "
-      "turns, in random order, "
-      "on the "
-      "same steps.\n",
+      "their ratios carry over. Each is a median, in processor time, over rounds in which all detectors took "
+      "turns, in random order, on the same steps.\n",
       system.date, system.cpu_model, system.cores, system.load_average[0], build.build_type, build.compiler,
       build.commit);
 }

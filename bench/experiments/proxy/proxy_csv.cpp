@@ -49,8 +49,7 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
     {"crossings", text<&Score::tally, &T::crossings>, always, whole_number,
      "Ticks whose way has a point in common with a triangle, sides and corners included; exact."},
     {"pops", text<&Score::tally, &T::pops>, always, whole_number,
-     "Ticks that come out at the other side, beyond a billionth of the diagonal: what a hand feels as falling "
-     "through."},
+     "Ticks that come out at the other side, beyond a billionth of the diagonal: what a hand feels as falling through."},
     {"violations", text<&Score::tally, &T::violations>, always, whole_number,
      "Ticks whose way comes nearer to the surface than the radius; exact."},
     {"max_shortfall_m", text<&Score::tally, &T::max_shortfall>, always, finite, "By how much, at the end of a tick."},
@@ -88,8 +87,7 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
      "The bare `nearest` of the same detector, without a limit of reach, at the same goals between the ticks."},
     {"query_p999_ns", bare_percentile<999>, optional, whole_number, ""},
     {"stopped_short", text<&Score::tally, &T::stopped_short>, always, whole_number,
-     "Ticks that end off their goal though straight on towards it a thousandth of the radius, or for a point a "
-     "millionth of the diagonal, was free, and more than 2^-32 of the coordinates; exact."},
+     "Ticks that end off their goal though straight on towards it a thousandth of the radius, or for a point a millionth of the diagonal, was free, and more than 2^-32 of the coordinates; exact."},
     {"unfinished", text<&Score::tally, &T::unfinished>, always, whole_number,
      "Ticks that their limit of work ended; their ends are not judged."},
     {"max_lag", text<&Score::tally, &T::max_lag>, always, finite,

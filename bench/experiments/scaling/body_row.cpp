@@ -46,8 +46,8 @@ constexpr auto columns = std::to_array<results::Column<R>>({
      "A query after that: the median of the frames' means, without the clock's cost."},
     {"tick_over_one", rounded<4, &R::tick_over_one>, optional, finite,
      "A tick over that with one body: the median of the ratios of a round's median to those of the rounds "
-     "with one body right before and after it. With one body: of two scenes alike, so how far off it may "
-     "be. Empty where the clock cannot tell a time from nothing."},
+     "with one body right before and after it. With one body: of two scenes alike, so how far off it may be. "
+     "Empty where the clock cannot tell a time from nothing."},
     {"found", text<&R::found>, always, whole_number, "Queries of one round with a body in reach."},
     {"differing", text<&R::differing>, always, whole_number,
      "Answers of one round that are not those of the first contestant, to 1e-9."},

@@ -10,6 +10,7 @@
 
 #include "bench/meshes/generated_meshes.h"
 #include "bench/support/numbers.h"
+#include "bench/support/split.h"
 
 namespace touchmark::bench::experiments::scaling {
 namespace {
@@ -39,18 +40,14 @@ std::vector<std::uint64_t> parse_sizes(const std::string& text) {
 
 std::vector<std::uint64_t> parse_sizes(const std::string& text, const SizesOf& of) {
   std::vector<std::uint64_t> sizes;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string part = text.substr(begin, end - begin);
+  for (const std::string_view part : support::split(text, ',')) {
     const std::optional<std::uint64_t> size = parse_size(part, of);
     if (!size) {
       throw std::invalid_argument(
-          fmt::format("--sizes \"{}\": \"{}\" is not a whole number of {} from {} to {}, as 5000, 5k "
-                      "or 1.5M",
+          fmt::format("--sizes \"{}\": \"{}\" is not a whole number of {} from {} to {}, as 5000, 5k or 1.5M",
                       text, part, of.what, of.least, of.most));
     }
     sizes.push_back(*size);
-    begin = end + 1;
   }
   std::sort(sizes.begin(), sizes.end());
   sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());

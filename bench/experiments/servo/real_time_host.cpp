@@ -100,8 +100,7 @@ std::vector<std::string> warnings_about(const RealTimeHost& host) {
   if (const auto& quota = host.cpu_quota)
     lines.push_back(
         fmt::format("a CPU quota is in force: {:g} of each {:g} ms of processor time, for all threads "
-                    "together ({}); late "
-                    "ticks may come from it",
+                    "together ({}); late ticks may come from it",
                     quota->quota_us / 1e3, quota->period_us / 1e3, quota->file));
   if (!host.core_is_isolated)
     lines.emplace_back("other processes may use the core (isolcpus keeps them off)");

@@ -126,8 +126,7 @@ std::string list_of_uncounted(const std::vector<SuiteRow>& rows, std::size_t mos
   if (found == 0) return "";
   std::string text = fmt::format(
       "{} times too short to be compared with those of exact rivals: both means below {:g} ns, tails less "
-      "than "
-      "{:g} ns apart, or within {:g} ns of the floor\n{}",
+      "than {:g} ns apart, or within {:g} ns of the floor\n{}",
       found, min_mean_ns, min_tail_difference_ns, min_above_floor_ns, table.text());
   if (found > most) text += fmt::format("and {} more, in suite.csv\n", found - most);
   return text;

@@ -19,14 +19,13 @@ constexpr std::string_view magic = "glTF";
 /// The extensions that may be required, with a blank about each: the first three are read, the others change
 /// no shape.
 constexpr std::string_view known_extensions =
-    " KHR_draco_mesh_compression KHR_mesh_quantization EXT_mesh_gpu_instancing"
-    " EXT_lights_image_based EXT_texture_avif EXT_texture_webp KHR_lights_punctual KHR_materials_anisotropy"
-    " KHR_materials_clearcoat KHR_materials_diffuse_transmission KHR_materials_dispersion"
-    " KHR_materials_emissive_strength KHR_materials_ior KHR_materials_iridescence"
-    " KHR_materials_pbrSpecularGlossiness KHR_materials_sheen KHR_materials_specular "
-    "KHR_materials_transmission"
-    " KHR_materials_unlit KHR_materials_variants KHR_materials_volume KHR_materials_volume_scatter"
-    " KHR_texture_basisu KHR_texture_transform KHR_xmp KHR_xmp_json_ld MSFT_texture_dds ";
+    " KHR_draco_mesh_compression KHR_mesh_quantization EXT_mesh_gpu_instancing EXT_lights_image_based "
+    "EXT_texture_avif EXT_texture_webp KHR_lights_punctual KHR_materials_anisotropy KHR_materials_clearcoat "
+    "KHR_materials_diffuse_transmission KHR_materials_dispersion KHR_materials_emissive_strength "
+    "KHR_materials_ior KHR_materials_iridescence KHR_materials_pbrSpecularGlossiness KHR_materials_sheen "
+    "KHR_materials_specular KHR_materials_transmission KHR_materials_unlit KHR_materials_variants "
+    "KHR_materials_volume KHR_materials_volume_scatter KHR_texture_basisu KHR_texture_transform KHR_xmp "
+    "KHR_xmp_json_ld MSFT_texture_dds ";
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;

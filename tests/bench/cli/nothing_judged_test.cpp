@@ -219,8 +219,8 @@ TEST(WrongAnswers, AreToldWithTheCommandsThatRepeatThem) {
       run_hostile({"stress", "--family", "thresholds", "--probes", "60", "--detector", "lies"}).out};
   for (const std::string& text : told) {
     const std::regex wrong(
-        "  step ([0-9]+) \\(1 distance\\): probe .*; expected ([0-9.e+-]+) to triangle .*; got "
-        "([0-9.e+-]+) to triangle ");
+        "  step ([0-9]+) \\(1 distance\\): probe .*; expected ([0-9.e+-]+) to triangle .*; got ([0-9.e+-]+) "
+        "to triangle ");
     std::vector<std::smatch> steps;
     for (std::sregex_iterator i(text.begin(), text.end(), wrong), end; i != end; ++i) steps.push_back(*i);
     const std::vector<std::string> commands = commands_in(text, hostile);

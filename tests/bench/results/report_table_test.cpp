@@ -99,8 +99,7 @@ TEST(OverallVerdict, NamesTheFastestThatWasNeverWrongOverAllTrajectories) {
   rows[4].counts->missed = 1;
   EXPECT_EQ(overall_verdict(rows),
             "fast is the fastest that was never wrong in 2000 checked steps: 200 ns a query. Its slowest "
-            "warm step took 50 us, "
-            "which holds 1, 4 and 10 kHz, the last with a margin of 2.\n");
+            "warm step took 50 us, which holds 1, 4 and 10 kHz, the last with a margin of 2.\n");
   rows[0].cold.emplace();
   rows[0].cold->max = 300'000;
   EXPECT_TRUE(has(overall_verdict(rows),

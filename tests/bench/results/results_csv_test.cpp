@@ -16,8 +16,8 @@ namespace {
 const std::string contract =
     "schema,run_id,detector,options,mesh,triangles,trajectory,query,steps,radius,reach,guarantee,missed,"
     "false_contacts,wrong_triangle,max_distance_error,max_distance_error_ulp,max_normal_angle_deg,unresolved,"
-    "status,ns_per_query,ns_p50,ns_p90,ns_p99,ns_p999,ns_max,update_rate_hz,deadline_misses_1khz,"
-    "longest_miss_run_1khz,build_ms,first_answer_ms,bytes,heap_bytes,work_mean,work_max,repetitions";
+    "status,ns_per_query,ns_p50,ns_p90,ns_p99,ns_p999,ns_max,update_rate_hz,deadline_misses_1khz,longest_"
+    "miss_run_1khz,build_ms,first_answer_ms,bytes,heap_bytes,work_mean,work_max,repetitions";
 
 std::size_t fields_in(const std::string& line) {
   std::size_t fields = 1;

@@ -70,8 +70,8 @@ TEST(MotionFiles, RunJsonHasTimesUnitAndSpeed) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("radius 0.1 mm"), std::string::npos) << outcome.out;
   EXPECT_NE(
-      outcome.out.find("hand.csv (5 steps, 0.004 s at 500 Hz, resampled to 1000 Hz, mean speed 0.5 m/s, at "
-                       "most 0.5 m/s)"),
+      outcome.out.find(
+          "hand.csv (5 steps, 0.004 s at 500 Hz, resampled to 1000 Hz, mean speed 0.5 m/s, at most 0.5 m/s)"),
       std::string::npos)
       << outcome.out;
   const nlohmann::json run = nlohmann::json::parse(content_of(out + "/run.json"));

@@ -382,10 +382,9 @@ TEST(Trajectories, RefuseAnUnknownNameAndListTheKnownOnes) {
     make("slied", cube(), 10, 0.01);
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "unknown trajectory 'slied': it is one of slide, approach, hover, jump, tap, edge, cross, hand, or a "
-        "CSV file");
+    EXPECT_STREQ(error.what(),
+                 "unknown trajectory 'slied': it is one of slide, approach, hover, jump, tap, edge, cross, "
+                 "hand, or a CSV file");
   }
 }
 

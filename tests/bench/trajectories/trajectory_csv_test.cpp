@@ -91,8 +91,7 @@ TEST_F(TrajectoryCsv, NamesTheLineAndColumnOfWhatIsWrong) {
   EXPECT_EQ(complaint("x,y\n1,2\n"), "path.csv:1: the header 'x,y' has no column z: " + must_name);
   const std::string no_names =
       "the first row '1,2,3' has numbers, and no line above it names x, y, z: --columns x=COL,y=COL,z=COL "
-      "takes "
-      "columns by number";
+      "takes columns by number";
   EXPECT_EQ(complaint("1,2,3\n"), "path.csv:1: " + no_names);
   EXPECT_EQ(complaint("# made by hand\n\n1,2,3\n"), "path.csv:3: " + no_names);
   const std::string by_number = " (--columns x=COL,y=COL,z=COL[,time=COL] takes columns by number)";
@@ -112,10 +111,9 @@ TEST_F(TrajectoryCsv, NamesTheLineAndColumnOfWhatIsWrong) {
   EXPECT_EQ(complaint("x,y,z\n1,2,1e999\n"), "path.csv:2: column z: '1e999' is beyond the range of a double");
   EXPECT_EQ(complaint("x,y,z,radius\n1,2,3,-0.5\n"), "path.csv:2: column radius: '-0.5' is negative");
   EXPECT_EQ(complaint("x,y,z,radius\n1,2,3,inf\n"), "path.csv:2: column radius: 'inf' is not finite");
-  EXPECT_EQ(
-      complaint("x,y,z,time_s\n1,2,3,1\n1,2,3,0.5\n"),
-      "path.csv:3: column time_s: '0.5' is not after the row before (--columns without time does not read "
-      "times)");
+  EXPECT_EQ(complaint("x,y,z,time_s\n1,2,3,1\n1,2,3,0.5\n"),
+            "path.csv:3: column time_s: '0.5' is not after the row before (--columns without time does not "
+            "read times)");
   EXPECT_EQ(
       complaint("x,y,z,T\n1,2,3,1\n1,2,3,1\n"),
       "path.csv:3: column T: '1' is not after the row before (--columns without time does not read times)");
@@ -283,9 +281,10 @@ TEST_F(TrajectoryCsv, NamesInACommentMayStandAboveRowsWithWords) {
 TEST_F(TrajectoryCsv, ReadsLogsOfRos1) {
   const std::string position =
       "field.pose.pose.position.x,field.pose.pose.position.y,field.pose.pose.position.z";
-  for (const std::string& names : {position, std::string("field.point.x,field.point.y,field.point.z"),
-                                   std::string("field.transform.translation.x,field.transform.translation.y,"
-                                               "field.transform.translation.z")}) {
+  for (const std::string& names :
+       {position, std::string("field.point.x,field.point.y,field.point.z"),
+        std::string(
+            "field.transform.translation.x,field.transform.translation.y,field.transform.translation.z")}) {
     const std::string text =
         "%time,field.header.seq,field.header.frame_id," + names + ",field.twist.linear.x\n" +
         log_of({epoch_ns[0] + ",7,tool", epoch_ns[1] + ",8,tool", epoch_ns[2] + ",9,"}, ",5");
@@ -314,10 +313,9 @@ TEST_F(TrajectoryCsv, ReadsLogsOfRos2InSecondsAndNanoseconds) {
   // Times that nobody chose are left where they are none.
   const std::string repeated = log_of({"1600000000,0,t", "1600000000,0,t", "1600000000,0,t"});
   EXPECT_EQ(read(repeated, parse_motion_options("x=4,y=5,z=6", "", "")).positions, three);
-  EXPECT_EQ(
-      complaint(repeated, parse_motion_options("x=4,y=5,z=6", "", "1000")),
-      "path.csv:2: column 1: '1600000000' and '0' in column 2 is not after the row before (--columns without "
-      "time does not read times)");
+  EXPECT_EQ(complaint(repeated, parse_motion_options("x=4,y=5,z=6", "", "1000")),
+            "path.csv:2: column 1: '1600000000' and '0' in column 2 is not after the row before (--columns "
+            "without time does not read times)");
   const MotionOptions chosen = parse_motion_options("time_s=1,time_ns=2,x=3,y=4,z=5", "", "");
   EXPECT_EQ(complaint("1,1000000000,0,0,0\n", chosen),
             "path.csv:1: columns 1 and 2: '1' and '1000000000' are not whole seconds and less than one");
@@ -411,10 +409,9 @@ TEST_F(TrajectoryCsv, RowsWithTimesAreStepsWhereTheyAreEvenlySpaced) {
   EXPECT_NEAR(*path.recorded->rate_hz(), 1000, 1e-8);
   EXPECT_FALSE(path.recorded->resampled_hz);
   EXPECT_FALSE(read("x,y,z\n1,2,3\n").recorded);
-  EXPECT_EQ(
-      complaint("time_s,x,y,z\n0,0,0,0\n# lost one\n0.001,1,0,0\n0.003,2,0,0\n0.004,3,0,0\n"),
-      "path.csv:5: column time_s: 0.002 s after the row before, longer than the usual interval: rows are not "
-      "evenly spaced; --rate HZ resamples them");
+  EXPECT_EQ(complaint("time_s,x,y,z\n0,0,0,0\n# lost one\n0.001,1,0,0\n0.003,2,0,0\n0.004,3,0,0\n"),
+            "path.csv:5: column time_s: 0.002 s after the row before, longer than the usual interval: rows "
+            "are not evenly spaced; --rate HZ resamples them");
 }
 
 TEST_F(TrajectoryCsv, ResamplesByTimeAlongStraightLines) {

@@ -283,10 +283,9 @@ TEST(CInterface, FailsForMeshesAndOptionsAndNamesTheOffender) {
     EXPECT_EQ(touchmark_detector_build(mesh, text.c_str()), nullptr) << text;
     return std::string(touchmark_last_error());
   };
-  EXPECT_EQ(
-      refused("octree"),
-      "touchmark_detector_build: unknown detector \"octree\"; there are brute-force, aabb-tree, grid-group, "
-      "sphere-cluster");
+  EXPECT_EQ(refused("octree"),
+            "touchmark_detector_build: unknown detector \"octree\"; there are brute-force, aabb-tree, "
+            "grid-group, sphere-cluster");
   EXPECT_EQ(refused("brute-force:cell=1"),
             "touchmark_detector_build: brute-force has no option \"cell\"; its options: side");
   EXPECT_EQ(

@@ -123,8 +123,8 @@ TEST(ReadDae, ReadsEveryPrimitiveWithFaces) {
 
 TEST(ReadDae, ReadsOneOfSeveralInputs) {
   expect_tetra(tetra({{"offset=\"0\"/><p>0 2 1 0 1 3 0 3 2 1 2 3",
-                       "offset=\"1\"/><input semantic=\"NORMAL\" source=\"#x\" offset=\"0\"/>"
-                       "<p>9 0 9 2 9 1 9 0 9 1 9 3 9 0 9 3 9 2 9 1 9 2 9 3"}}));
+                       "offset=\"1\"/><input semantic=\"NORMAL\" source=\"#x\" offset=\"0\"/><p>9 0 9 2 9 1 "
+                       "9 0 9 1 9 3 9 0 9 3 9 2 9 1 9 2 9 3"}}));
 }
 
 TEST(ReadDae, ReadsInterleavedArraysAndSkipsUnnamedParams) {

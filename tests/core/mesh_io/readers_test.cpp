@@ -495,8 +495,7 @@ TEST(ReadStl, ReadsPolygonsCapitalsAndAByteOrderMark) {
   EXPECT_EQ(refusal(read_stl, "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\n"),
             "line 7: face 0 has 2 corners; a face has at least 3");
   EXPECT_EQ(refusal(read_stl, "\xff\xfes\0o\0"),
-            "line 1: is UTF-16 text, which is not supported; save it as "
-            "UTF-8 or ASCII");
+            "line 1: is UTF-16 text, which is not supported; save it as UTF-8 or ASCII");
 }
 
 std::string binary_stl(const std::string& title, std::uint32_t declared, float last) {

@@ -48,14 +48,14 @@ const std::string tetrahedron_ase =
     "*MESH_FACE 2: A: 0 B: 3 C: 2\n*MESH_FACE 3: A: 1 B: 2 C: 3\n}\n}\n}\n";
 
 const std::string tetrahedron_amf =
-    "<?xml version=\"1.0\"?>\n<amf unit=\"millimeter\" version=\"1.1\"><object id=\"0\"><mesh><vertices>"
-    "<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>"
-    "<vertex><coordinates><x>1000</x><y>0</y><z>0</z></coordinates></vertex>"
-    "<vertex><coordinates><x>0</x><y>2000</y><z>0</z></coordinates></vertex>"
-    "<vertex><coordinates><x>0</x><y>0</y><z>3000</z></coordinates></vertex></vertices><volume>"
-    "<triangle><v1>0</v1><v2>2</v2><v3>1</v3></triangle><triangle><v1>0</v1><v2>1</v2><v3>3</v3></triangle>"
-    "<triangle><v1>0</v1><v2>3</v2><v3>2</v3></triangle><triangle><v1>1</v1><v2>2</v2><v3>3</v3></triangle>"
-    "</volume></mesh></object></amf>\n";
+    "<?xml version=\"1.0\"?>\n<amf unit=\"millimeter\" version=\"1.1\"><object "
+    "id=\"0\"><mesh><vertices><vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></"
+    "vertex><vertex><coordinates><x>1000</x><y>0</y><z>0</z></coordinates></"
+    "vertex><vertex><coordinates><x>0</x><y>2000</y><z>0</z></coordinates></"
+    "vertex><vertex><coordinates><x>0</x><y>0</y><z>3000</z></coordinates></vertex></"
+    "vertices><volume><triangle><v1>0</v1><v2>2</v2><v3>1</v3></triangle><triangle><v1>0</v1><v2>1</"
+    "v2><v3>3</v3></triangle><triangle><v1>0</v1><v2>3</v2><v3>2</v3></triangle><triangle><v1>1</v1><v2>2</"
+    "v2><v3>3</v3></triangle></volume></mesh></object></amf>\n";
 
 /// Z up, in units of 10 cm.
 const std::string tetrahedron_fbx =
@@ -136,13 +136,14 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 TEST(LoadMeshWithAssimp, RefusesWhatAssimpMisreads) {
   const TemporaryFolder folder;
   const std::string turned =
-      "</object><constellation id=\"1\"><instance objectid=\"0\"><deltax>1</deltax>"
-      "<deltay>0</deltay><deltaz>0</deltaz><rx>90</rx><ry>0</ry><rz>0</rz></instance></constellation>";
+      "</object><constellation id=\"1\"><instance "
+      "objectid=\"0\"><deltax>1</deltax><deltay>0</deltay><deltaz>0</deltaz><rx>90</rx><ry>0</ry><rz>0</rz></"
+      "instance></constellation>";
   EXPECT_NE(refusal(folder.file("a.amf", replaced(tetrahedron_amf, "</object>", turned))).find("<rx>"),
             std::string::npos);
   const std::string face =
-      "<X3D version=\"3.0\"><Scene><Shape><IndexedFaceSet ccw=\"false\" coordIndex=\"0 1 2 -1\">"
-      "<Coordinate point=\"0 0 0 1 0 0 0 1 0\"/></IndexedFaceSet></Shape></Scene></X3D>\n";
+      "<X3D version=\"3.0\"><Scene><Shape><IndexedFaceSet ccw=\"false\" coordIndex=\"0 1 2 -1\"><Coordinate "
+      "point=\"0 0 0 1 0 0 0 1 0\"/></IndexedFaceSet></Shape></Scene></X3D>\n";
   EXPECT_NE(refusal(folder.file("a.x3d", face)).find("ccw"), std::string::npos);
   EXPECT_EQ(refusal(folder.file("b.x3d", replaced(face, "false", "true"))), "accepted");
   const std::string part =

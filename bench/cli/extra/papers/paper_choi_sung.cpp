@@ -144,8 +144,7 @@ class Run {
     if (!papers::is_choi_sungs_bunny(mesh_.mesh)) {
       fmt::print(
           "These counts are of {}, not of the paper's mesh: docs/papers.md says where that comes from and "
-          "where to put "
-          "it.\n",
+          "where to put it.\n",
           mesh_.name);
     }
     if (result.answers_agree) return support::exit_done;

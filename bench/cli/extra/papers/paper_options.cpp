@@ -2,21 +2,17 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bench/cli/options.h"
+
 namespace touchmark::bench::cli {
+
 void add_paper_options(CLI::App& command, PaperOptions& options) {
-  command
-      .add_option("--out,--output", options.out,
-                  "folder for the CSV files, the report and the pictures' data")
-      ->type_name("DIR")
-      ->capture_default_str();
-  command.add_option("--radius", options.radius, "the probe's, in mesh units or % of the box diagonal")
-      ->type_name("LENGTH")
-      ->capture_default_str();
-  command.add_option("--steps", options.steps, "of the trajectory that every detector is given")
-      ->type_name("N");
-  command.add_option("--seed", options.seed, "of the trajectory and of the order of measuring")
-      ->type_name("N")
-      ->capture_default_str();
+  add_value(command, "--out,--output", options.out, "DIR",
+            "folder for the CSV files, the report and the pictures' data");
+  add_value(command, "--radius", options.radius, "LENGTH",
+            "the probe's, in mesh units or % of the box diagonal");
+  add_value(command, "--steps", options.steps, "N", "of the trajectory that every detector is given");
+  add_value(command, "--seed", options.seed, "N", "of the trajectory and of the order of measuring");
   command.add_flag("--quick", options.quick, "few steps, rounds and cases: to see that it works");
 }
 

@@ -1,6 +1,7 @@
 /// How the claims of Choi & Sung are gathered: by choi_sung_claims.cpp, of each kind by a file of its own.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -21,7 +22,6 @@ class ChoiSungClaimList {
   ChoiSungClaimList(const ChoiSungResult& result, bool own_mesh) : result_(result), own_mesh_(own_mesh) {}
 
   const ChoiSungResult& result() const noexcept { return result_; }
-  bool has_level(int level) const { return find(SubdivisionMethod::ls3, level, true) != nullptr; }
   /// True if all methods have all three levels of the paper.
   bool complete() const;
   bool is_timed() const;
@@ -51,6 +51,19 @@ class ChoiSungClaimList {
   bool own_mesh_;
   std::vector<Claim> claims_;
 };
+
+/// Returns value(level) from this level to the third.
+inline std::vector<double> over_levels(int from, const std::function<double(int level)>& value) {
+  std::vector<double> values;
+  for (int level = from; level <= 3; ++level) values.push_back(value(level));
+  return values;
+}
+inline bool rises(const std::vector<double>& values) {
+  return std::ranges::adjacent_find(values, std::greater_equal()) == values.end();
+}
+inline bool falls(const std::vector<double>& values) {
+  return std::ranges::adjacent_find(values, std::less_equal()) == values.end();
+}
 
 /// Fig. 2, Fig. 3, Figs 7 and 8, the graphical test's words.
 void add_surface_claims(ChoiSungClaimList& list);

@@ -83,11 +83,10 @@ void add_score_claims(ChoiSungClaimList& list) {
   std::string found;
   for (const MethodScores& s : scores)
     found += fmt::format("{}{} {:.2f}", found.empty() ? "" : ", ", name_of(s.method), s.appearance);
-  list.add(
-      "Graphical test, Table 2", "LS3 is the best in terms of graphics",
-      looks->method == SubdivisionMethod::ls3, found,
-      "creases alone would favour the method that shrinks most; half of the score is the distance to the "
-      "original");
+  list.add("Graphical test, Table 2", "LS3 is the best in terms of graphics",
+           looks->method == SubdivisionMethod::ls3, found,
+           "creases alone would favour the method that shrinks most; half of the score is the distance to "
+           "the original");
   std::stable_sort(scores.begin(), scores.end(),
                    [](const auto& a, const auto& b) { return a.total() > b.total(); });
   const MethodScores &first = scores[0], &second = scores[1];
@@ -95,10 +94,9 @@ void add_score_claims(ChoiSungClaimList& list) {
       "Table 2", "LS3 has the highest total score", first.method == SubdivisionMethod::ls3,
       fmt::format("{} {:.2f}, then {} {:.2f}", name_of(first.method), first.total(), name_of(second.method),
                   second.total()),
-      list.why(
-          "shrinking is rewarded three times: a smaller surface has smaller creases, smaller and so "
-          "tighter spheres, and fewer edges above the fixed threshold, so fewer spheres and less time; and "
-          "the time is scored twice, as detection time and as update rate"));
+      list.why("shrinking is rewarded three times: a smaller surface has smaller creases, smaller and so "
+               "tighter spheres, and fewer edges above the fixed threshold, so fewer spheres and less time; "
+               "and the time is scored twice, as detection time and as update rate"));
   const bool close = first.total() - second.total() < close_call &&
                      (first.method == SubdivisionMethod::ls3 || second.method == SubdivisionMethod::ls3);
   if (close) {

@@ -28,21 +28,18 @@ void add_tightness(ChoiSungClaimList& list) {
   const RowValue scale_free = [](const ChoiSungRow& row) { return row.relative_looseness; };
   const Reason reason =
       "the formula as printed adds lengths, so it favours the surfaces that shrink and the triangles that "
-      "are "
-      "small; the next row reads it without a scale";
+      "are small; the next row reads it without a scale";
   list.add_best("Fig. 6", "Catmull-Clark is the tightest at levels 2 and 3", catmull_clark_linear, 2, false,
                 absolute, reason);
   list.add("Fig. 6", "then Mid-point, Butterfly, LS3, Loop follow (level 3)",
            list.sorted(3, false, absolute) == printed, order_text(list, 3, absolute), reason);
-  list.add(
-      "Fig. 6, read without a scale",
-      "at levels 2 and 3 the order is Catmull-Clark, Mid-point, Butterfly, LS3, Loop",
-      list.sorted(2, false, scale_free) == printed && list.sorted(3, false, scale_free) == printed,
-      fmt::format(
-          "level 2: {}; level 3: {}; Mid-point's neighbours lie on the spheres, so rounding decides where it "
-          "stands",
-          order_text(list, 2, scale_free), order_text(list, 3, scale_free)),
-      "mean of (radius - distance) / radius, Catmull-Clark's quadrilaterals cut between the levels");
+  list.add("Fig. 6, read without a scale",
+           "at levels 2 and 3 the order is Catmull-Clark, Mid-point, Butterfly, LS3, Loop",
+           list.sorted(2, false, scale_free) == printed && list.sorted(3, false, scale_free) == printed,
+           fmt::format("level 2: {}; level 3: {}; Mid-point's neighbours lie on the spheres, so rounding "
+                       "decides where it stands",
+                       order_text(list, 2, scale_free), order_text(list, 3, scale_free)),
+           "mean of (radius - distance) / radius, Catmull-Clark's quadrilaterals cut between the levels");
   bool tighter = true;
   for (const auto m : choi_sung_methods)
     for (int level = 1; level <= 3; ++level) tighter = tighter && list.value(m, level, false, absolute) < 1;
@@ -62,13 +59,12 @@ void add_sphere_centres(ChoiSungClaimList& list) {
     }
   }
   const SurfaceMeasures& original = list.find(ls3, 0, false)->surface;
-  list.add(
-      "Prior work", "spheres about centroids have smaller mean radii than about circumcentres",
-      2 * smaller > all,
-      fmt::format("on {} of {} surfaces; {:.4f} against {:.4f} on the original", smaller, all,
-                  original.centroid_radius, original.circumradius),
-      "about the circumcentre lies the smallest sphere through the corners of a triangle without an obtuse "
-      "angle; only an obtuse one gains by the centroid");
+  list.add("Prior work", "spheres about centroids have smaller mean radii than about circumcentres",
+           2 * smaller > all,
+           fmt::format("on {} of {} surfaces; {:.4f} against {:.4f} on the original", smaller, all,
+                       original.centroid_radius, original.circumradius),
+           "about the circumcentre lies the smallest sphere through the corners of a triangle without an "
+           "obtuse angle; only an obtuse one gains by the centroid");
 }
 
 void add_sphere_counts(ChoiSungClaimList& list) {
@@ -88,16 +84,11 @@ void add_sphere_counts(ChoiSungClaimList& list) {
   list.add("Fig. 9", "with clustering the spheres grow slightly with the levels, without it rapidly (LS3)",
            growth(true) < growth(false) / 3,
            fmt::format("{:.1f} times with, {:.1f} times without", growth(true), growth(false)));
-  bool rises = true;
-  double last = -1;
-  for (int level = 0; level <= 3; ++level) {
-    const double reduction =
-        1 - list.value(ls3, level, true, spheres) / list.value(ls3, level, false, spheres);
-    rises = rises && reduction > last;
-    last = reduction;
-  }
-  list.add("Discussion", "the reduction of the spheres grows with the level (LS3)", rises,
-           fmt::format("{:.0f} % at level 3", 100 * last));
+  const std::vector<double> reductions = over_levels(0, [&](int level) {
+    return 1 - list.value(ls3, level, true, spheres) / list.value(ls3, level, false, spheres);
+  });
+  list.add("Discussion", "the reduction of the spheres grows with the level (LS3)", rises(reductions),
+           fmt::format("{:.0f} % at level 3", 100 * reductions.back()));
 }
 
 /// Bottom-up against top-down, by the paper's tightness.
@@ -114,15 +105,13 @@ void add_partitions(ChoiSungClaimList& list) {
                           row.partitions->bottom_up, row.partitions->top_down, row.partitions->published);
   }
   if (all == 0) return;
-  list.add(
-      "Related works", "spheres made bottom-up are tighter than made top-down", 2 * published > all,
-      fmt::format(
-          "as published on {} of {} clustered surfaces; in the smallest spheres about the same clusters "
-          "on {}; {}",
-          published, all, tighter, found),
-      "top-down: as many parts by halving the longest side, in their smallest spheres; the clusters are as "
-      "good a partition, but spheres about a first triangle's centroid are larger than they need to be. "
-      "Ruspini's and Weller's own programs are not at hand");
+  list.add("Related works", "spheres made bottom-up are tighter than made top-down", 2 * published > all,
+           fmt::format("as published on {} of {} clustered surfaces; in the smallest spheres about the same "
+                       "clusters on {}; {}",
+                       published, all, tighter, found),
+           "top-down: as many parts by halving the longest side, in their smallest spheres; the clusters are "
+           "as good a partition, but spheres about a first triangle's centroid are larger than they need to "
+           "be. Ruspini's and Weller's own programs are not at hand");
 }
 
 /// "the time complexity can be reduced to logarithms".
@@ -131,11 +120,11 @@ void add_hierarchy(ChoiSungClaimList& list) {
   if (!coarse.tree || !fine.tree || !(coarse.tree->work > 0)) return;
   const double spheres = static_cast<double>(fine.spheres) / static_cast<double>(coarse.spheres),
                grown = fine.tree->work / coarse.tree->work;
-  list.add(
-      "Related works", "a hierarchy reduces the number of tests to logarithms", grown < std::log2(spheres),
-      fmt::format("LS3 level 3 has {:.0f} times the spheres; the exact tree looks at {:.1f} times as much, "
-                  "{:.0f} tests",
-                  spheres, grown, fine.tree->work));
+  list.add("Related works", "a hierarchy reduces the number of tests to logarithms",
+           grown < std::log2(spheres),
+           fmt::format("LS3 level 3 has {:.0f} times the spheres; the exact tree looks at {:.1f} times as "
+                       "much, {:.0f} tests",
+                       spheres, grown, fine.tree->work));
 }
 
 /// "The more we applied surface subdivision, the more the results became precise": of the surfaces
@@ -158,13 +147,11 @@ void add_precision(ChoiSungClaimList& list) {
     }
     found += fmt::format("{}{} {:.2f}", found.empty() ? "" : ", ", method, last / original);
   }
-  list.add(
-      "Abstract", "the more subdivision, the more precise the detection", falls,
-      fmt::format("error to the smooth surface at the finest level over the original's: {}", found),
-      "smaller triangles are no gain by themselves: Mid-point and the tool's Catmull-Clark answer as the "
-      "original does, Loop goes to a surface of its own, and LS3 goes to this smooth surface, which is its "
-      "limit; precision as the paper defines it is the "
-      "triangles' size (Fig. 8)");
+  list.add("Abstract", "the more subdivision, the more precise the detection", falls,
+           fmt::format("error to the smooth surface at the finest level over the original's: {}", found),
+           "smaller triangles are no gain by themselves: Mid-point and the tool's Catmull-Clark answer as "
+           "the original does, Loop goes to a surface of its own, and LS3 goes to this smooth surface, which "
+           "is its limit; precision as the paper defines it is the triangles' size (Fig. 8)");
 }
 
 /// The distance with the least tests, and with the least time, of a mesh and a method at its finest level.
@@ -220,8 +207,7 @@ void add_model_distances(ChoiSungClaimList& list) {
   list.add("Collision detection test, in tests", "0.02 is the optimal distance for tooth, clover and hat",
            same, found,
            "multiples of the bunny's distance, both in parts of the box diagonal, LS3 at the finest level; "
-           "their models "
-           "and the unit of 0.02 are not known");
+           "their models and the unit of 0.02 are not known");
 }
 
 }  // namespace

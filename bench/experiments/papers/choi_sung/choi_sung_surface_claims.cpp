@@ -1,8 +1,11 @@
 /// Choi & Sung's graphical test: what subdivision makes of the surface.
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bench/experiments/papers/choi_sung/choi_sung_claim_list.h"
 
@@ -61,31 +64,30 @@ void add_triangle_shapes(ChoiSungClaimList& list) {
       clark > original && others.back() == catmull_clark_linear,
       fmt::format("longest edge over shortest {:.2f} at level 3, {:.2f} in the original", clark, original),
       "of this mesh's triangles others are longer");
-  list.add(
-      "Graphical test", "Mid-point's triangles are equilateral", mid < 1.1,
-      fmt::format("longest edge over shortest {:.2f} at level 3, {:.2f} in the original", mid, original),
-      "halving every edge makes four triangles of the parent's shape, whatever that is; where only the long "
-      "edges split the shape gets a little rounder");
+  list.add("Graphical test", "Mid-point's triangles are equilateral", mid < 1.1,
+           fmt::format("longest edge over shortest {:.2f} at level 3, {:.2f} in the original", mid, original),
+           "halving every edge makes four triangles of the parent's shape, whatever that is; where only the "
+           "long edges split the shape gets a little rounder");
 }
 
 void add_volumes(ChoiSungClaimList& list) {
   const RowValue volume = [](const ChoiSungRow& row) { return row.surface.relative_volume; };
   const RowValue kept = [](const ChoiSungRow& row) { return -std::abs(row.surface.relative_volume - 1); };
-  bool all_kept = true, loop_worst = true, shrinks = true;
-  std::string found;
+  bool all_kept = true, loop_worst = true;
   for (int level = 1; level <= 3; ++level) {
     for (const auto m : {catmull_clark_linear, mid_point})
       all_kept = all_kept && std::abs(list.value(m, level, false, volume) - 1) < flat;
     loop_worst = loop_worst && list.sorted(level, false, kept).front() == loop;
-    shrinks = shrinks && list.value(loop, level, false, volume) < list.value(loop, level - 1, false, volume);
-    found += fmt::format("{}{:.3f}", found.empty() ? "" : ", ", list.value(loop, level, false, volume));
   }
+  const std::vector<double> of_loop =
+      over_levels(0, [&](int level) { return list.value(loop, level, false, volume); });
   list.add("Fig. 3", "Catmull-Clark and Mid-point keep the volume", all_kept,
            fmt::format("{:.4f}, {:.4f} at level 3", list.value(catmull_clark_linear, 3, false, volume),
                        list.value(mid_point, 3, false, volume)));
   list.add("Fig. 3", "Loop is the worst in volume", loop_worst,
-           fmt::format("{:.3f} at level 3", list.value(loop, 3, false, volume)));
-  list.add("Graphical test", "Loop shrinks more with each level", shrinks, fmt::format("volume {}", found));
+           fmt::format("{:.3f} at level 3", of_loop.back()));
+  list.add("Graphical test", "Loop shrinks more with each level", falls(of_loop),
+           fmt::format("volume {:.3f}", fmt::join(std::span(of_loop).subspan(1), ", ")));
   const double share = list.find(loop, 3, false)->surface.shrinkage_at_creases;
   list.add(
       "Graphical test", "Loop's shrinkage is noticeable where the surface is highly curved", share > 1.5,
@@ -121,8 +123,7 @@ void add_kept_places(ChoiSungClaimList& list) {
            fmt::format("Catmull-Clark: {}, Loop: {}, Mid-point: {}, LS3: {}", yes_no(catmull_clark_linear),
                        yes_no(loop), yes_no(mid_point), yes_no(ls3)),
            "Mid-point moves nothing, and what the tool calls Catmull-Clark interpolates linearly; the paper "
-           "says so "
-           "itself where it finds that both maintain the original surface");
+           "says so itself where it finds that both maintain the original surface");
 }
 
 void add_smoothness(ChoiSungClaimList& list) {
@@ -142,24 +143,21 @@ void add_smoothness(ChoiSungClaimList& list) {
                   list.value(butterfly, 3, false, crease), list.value(ls3, 3, false, crease),
                   list.value(loop, 3, false, crease), list.value(mid_point, 3, false, crease),
                   list.value(catmull_clark_linear, 3, false, crease)),
-      list.why(
-          "Loop and LS3 are; Mid-point and the tool's Catmull-Clark, which the paper calls approximating, "
-          "keep the facets"));
+      list.why("Loop and LS3 are; Mid-point and the tool's Catmull-Clark, which the paper calls "
+               "approximating, keep the facets"));
   if (list.value(loop, 3, false, crease) < list.value(butterfly, 3, false, crease) &&
       list.value(ls3, 3, false, crease) < list.value(butterfly, 3, false, crease) &&
       claim.agreement == Agreement::no)
     claim.agreement = Agreement::nearly;
   list.add(std::move(claim));
-  bool smoother = true;
-  double off = 0;
-  for (int level = 1; level <= 3; ++level) {
-    smoother = smoother && list.value(ls3, level, false, crease) < list.value(ls3, level - 1, false, crease);
-    off = std::max(off, std::abs(list.find(ls3, level, false)->surface.relative_volume - 1));
-  }
+  const std::vector<double> creases =
+      over_levels(0, [&](int level) { return list.value(ls3, level, false, crease); });
+  const double off = std::ranges::max(over_levels(
+      1, [&](int level) { return std::abs(list.find(ls3, level, false)->surface.relative_volume - 1); }));
   list.add("Discussion", "LS3 gets smoother with every step and keeps the original's size",
-           smoother && off < 0.05,
-           fmt::format("creases {:.1f} to {:.1f} degrees, volume within {:.1f} %",
-                       list.value(ls3, 0, false, crease), list.value(ls3, 3, false, crease), 100 * off));
+           falls(creases) && off < 0.05,
+           fmt::format("creases {:.1f} to {:.1f} degrees, volume within {:.1f} %", creases.front(),
+                       creases.back(), 100 * off));
 }
 
 /// "maintaining the original surfaces".
@@ -187,15 +185,12 @@ void add_surface_claims(ChoiSungClaimList& list) {
                 [](const auto& r) { return -static_cast<double>(r.surface.triangles); });
   list.add_best("Fig. 8", "Catmull-Clark makes the smallest triangles", catmull_clark_linear, 1, false,
                 [](const auto& r) { return r.surface.mean_area; });
-  bool falls = true;
-  for (const auto m : choi_sung_methods) {
-    for (int level = 1; level <= 3; ++level)
-      falls = falls && list.find(m, level, false)->surface.mean_area <
-                           list.find(m, level - 1, false)->surface.mean_area;
-  }
-  list.add("Fig. 8", "the mean area of a triangle falls with every level", falls,
-           fmt::format("LS3: {:.3g} to {:.3g}", list.find(ls3, 0, false)->surface.mean_area,
-                       list.find(ls3, 3, false)->surface.mean_area));
+  const auto areas = [&](SubdivisionMethod method) {
+    return over_levels(0, [&](int level) { return list.find(method, level, false)->surface.mean_area; });
+  };
+  list.add("Fig. 8", "the mean area of a triangle falls with every level",
+           std::ranges::all_of(choi_sung_methods, [&](auto method) { return falls(areas(method)); }),
+           fmt::format("LS3: {:.3g} to {:.3g}", areas(ls3).front(), areas(ls3).back()));
 }
 
 }  // namespace touchmark::bench::experiments::papers

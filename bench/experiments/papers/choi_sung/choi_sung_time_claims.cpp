@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bench/experiments/papers/choi_sung/choi_sung_claim_list.h"
 #include "bench/experiments/papers/choi_sung/choi_sung_printed.h"
@@ -48,12 +50,9 @@ std::string fixed_parts() {
   const LineFit single = line_through(printed_ticks(false)), clustered = line_through(printed_ticks(true));
   return fmt::format(
       "the printed detection time is the printed tick (1000 / rate) and {:.2f} +- {:.2f} ms at every level, "
-      "without "
-      "and with clustering: one measurement with an offset; the tick itself is {:.2f} ms and {:.3f} us a "
-      "sphere "
-      "without clustering, {:.2f} ms and {:.2f} us a sphere with it. What does not grow with the spheres is "
-      "no "
-      "search; ours are the search alone",
+      "without and with clustering: one measurement with an offset; the tick itself is {:.2f} ms and {:.3f} "
+      "us a sphere without clustering, {:.2f} ms and {:.2f} us a sphere with it. What does not grow with the "
+      "spheres is no search; ours are the search alone",
       mean, std::sqrt(spread), single.offset, 1e3 * single.slope, clustered.offset, 1e3 * clustered.slope);
 }
 
@@ -79,11 +78,10 @@ void add_slopes(ChoiSungClaimList& list) {
       time_claim(where, "us a sphere without clustering", 1e3 * theirs.slope, 1e-3 * ours.slope, 4, reason));
   list.add(time_claim(where, "us a sphere with clustering", 1e3 * theirs_clustered.slope,
                       1e-3 * ours_clustered.slope, 4, reason));
-  list.add(number_claim(
-      where, "a clustered sphere over one without clustering", theirs_clustered.slope / theirs.slope,
-      ours_clustered.slope / ours.slope, 2, 0.1,
-      list.why("a clustered sphere holds more triangles, and what those cost over a sphere is of the "
-               "machine and the program")));
+  list.add(number_claim(where, "a clustered sphere over one without clustering",
+                        theirs_clustered.slope / theirs.slope, ours_clustered.slope / ours.slope, 2, 0.1,
+                        list.why("a clustered sphere holds more triangles, and what those cost over a sphere "
+                                 "is of the machine and the program")));
   const LineFit counted = our_line(list, false, tests);
   list.add("Fig. 10", "without clustering the time grows in proportion to the spheres",
            std::abs(counted.slope - 1) < 0.01,
@@ -92,54 +90,36 @@ void add_slopes(ChoiSungClaimList& list) {
 
 /// Table 3's three ratios: the Discussion says of each that it grows with the level.
 void add_growing_ratios(ChoiSungClaimList& list) {
-  const auto rises = [&](const RowValue& of, std::string& found) {
-    bool rising = true;
-    double last = -1e9;
-    for (int level = 0; level <= 3; ++level) {
-      const double gain = list.value(ls3, level, false, of) / list.value(ls3, level, true, of);
-      rising = rising && gain > last;
-      last = gain;
-      found += fmt::format("{}{:.2f}", found.empty() ? "" : ", ", gain);
-    }
-    return rising;
+  const auto gains = [&](const RowValue& of) {
+    return over_levels(
+        0, [&](int level) { return list.value(ls3, level, false, of) / list.value(ls3, level, true, of); });
   };
-  std::string by_time, by_tests;
-  const bool time_rises = rises(nanoseconds, by_time), tests_rise = rises(tests, by_tests);
+  const std::vector<double> by_time = gains(nanoseconds), by_tests = gains(tests);
   list.add("Discussion", "the reduction of the detection time grows with the level (LS3)",
-           time_rises && tests_rise,
-           fmt::format("without over with clustering: {} in time, {} in tests", by_time, by_tests));
+           rises(by_time) && rises(by_tests),
+           fmt::format("without over with clustering: {:.2f} in time, {:.2f} in tests",
+                       fmt::join(by_time, ", "), fmt::join(by_tests, ", ")));
   list.add("Discussion", "the increment of the update rate grows with the level (LS3)",
-           time_rises && tests_rise, "the same ratios: a rate is the inverse of a time");
+           rises(by_time) && rises(by_tests), "the same ratios: a rate is the inverse of a time");
 }
 
 /// "the growth rate with clustering becomes more flat as the levels become higher".
 void add_flattening(ChoiSungClaimList& list) {
-  bool flatter = true;
-  double last = 1e9;
-  std::string found;
-  for (int level = 1; level <= 3; ++level) {
-    const double growth = list.value(ls3, level, true, tests) / list.value(ls3, level - 1, true, tests);
-    flatter = flatter && growth < last;
-    last = growth;
-    found += fmt::format("{}{:.2f}", found.empty() ? "" : ", ", growth);
-  }
-  list.add("Fig. 10", "with clustering the growth gets flatter as the levels get higher (LS3)", flatter,
-           fmt::format("from level to level {} times the tests", found));
+  const std::vector<double> growth = over_levels(1, [&](int level) {
+    return list.value(ls3, level, true, tests) / list.value(ls3, level - 1, true, tests);
+  });
+  list.add("Fig. 10", "with clustering the growth gets flatter as the levels get higher (LS3)", falls(growth),
+           fmt::format("from level to level {:.2f} times the tests", fmt::join(growth, ", ")));
 }
 
 void add_threshold_claims(ChoiSungClaimList& list) {
-  const double fewest = list.value(ls3, 0, false, tests);
-  bool better = false;
-  std::string found;
-  for (int level = 0; level <= 3; ++level) {
-    better = better || list.value(ls3, level, false, tests) < fewest;
-    found += fmt::format("{}{:.0f}", found.empty() ? "" : ", ", list.value(ls3, level, false, tests));
-  }
+  const std::vector<double> all =
+      over_levels(0, [&](int level) { return list.value(ls3, level, false, tests); });
+  const bool better = std::ranges::min(all) < all.front();
   list.add("Abstract", "performance becomes better until a certain threshold and degrades afterward", better,
-           fmt::format("tests a query over the levels, without clustering: {}", found),
+           fmt::format("tests a query over the levels, without clustering: {:.0f}", fmt::join(all, ", ")),
            "no level is faster than the one before, in the paper's Table 3 neither; what has such a "
-           "threshold is the "
-           "distance of clustering (distances.csv)");
+           "threshold is the distance of clustering (distances.csv)");
   const double gain = list.value(ls3, 3, false, tests) / list.value(ls3, 3, true, tests);
   list.add("Abstract", "clustering improves the speed of detection notably", gain > 1.5,
            fmt::format("{:.1f} times fewer tests at level 3", gain));

@@ -77,24 +77,20 @@ std::string contact_levels_verdict(const ContactLevelResult& result, double diag
   const Comparison comparison = compared(result);
   std::string text = fmt::format(
       "It works: of {} wanted rates that some level alone holds, the session is in time for 99 of 100 "
-      "queries at "
-      "{}. It gains little: nearer to the truth than the best such level it is at {}, farther off at {}. A "
-      "level "
-      "costs nearly the same in contact and out of it, so a trajectory gives little to switch for, and the "
-      "room "
-      "that keeps the session from switching to and fro is lost. Where the time that a query is given is "
-      "known, "
-      "`touchmark tune` finds the level beforehand; where it changes, switching follows it.\n\n",
+      "queries at {}. It gains little: nearer to the truth than the best such level it is at {}, farther off "
+      "at {}. A level costs nearly the same in contact and out of it, so a trajectory gives little to switch "
+      "for, and the room that keeps the session from switching to and fro is lost. Where the time that a "
+      "query is given is known, `touchmark tune` finds the level beforehand; where it changes, switching "
+      "follows it.\n\n",
       comparison.rates, comparison.held, comparison.nearer, comparison.farther);
   text += fmt::format(
       "At 1 kHz there is nothing to switch: the finest level, which alone holds {:.0f} kHz, answers {:.0f} % "
-      "of "
-      "the queries, all after the first few. ",
+      "of the queries, all after the first few. ",
       slowest->rate_hz * 1e-3, 100 * kilohertz->finest);
   text += fmt::format(
       "The exact tree over the finest triangles holds {:.0f} kHz with their error of {:.2g} % of the "
-      "diagonal and "
-      "is {} than the spheres alone: with an exact form no level needs to be given up for time.\n",
+      "diagonal and is {} than the spheres alone: with an exact form no level needs to be given up for "
+      "time.\n",
       tree->rate_hz * 1e-3, 100 * tree->mean_error / diagonal,
       tree->rate_hz >= result.rows.front().rate_hz ? "faster" : "slower");
   return text;

@@ -85,8 +85,8 @@ Claim spheres_claim(const ParkJangResult& result, const char* shape, const char*
   if (claim.agreement != Agreement::yes)
     claim.why =
         "a sphere holds more space than the cuboid of the same triangles, so more triangles are tested; but "
-        "its own "
-        "test is the cheaper one here (a squared distance, no root), which decides where groups are many";
+        "its own test is the cheaper one here (a squared distance, no root), which decides where groups are "
+        "many";
   return claim;
 }
 

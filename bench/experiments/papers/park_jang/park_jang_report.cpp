@@ -76,10 +76,8 @@ std::string in_short(const ParkJangResult& result) {
     };
     text += fmt::format(
         "- {} ({} triangles): a query takes a tenth of the ungrouped one's operations from {} cuboids on, "
-        "fewest with "
-        "{} ({:.3g} times fewer), a tenth more than that beyond {}. The best count of a single place is {} "
-        "to {} in the "
-        "middle half of the places.\n",
+        "fewest with {} ({:.3g} times fewer), a tenth more than that beyond {}. The best count of a single "
+        "place is {} to {} in the middle half of the places.\n",
         curve.mesh, curve.triangles, groups(curve.tenth_from), curve.best, curve.factor,
         groups(curve.rises_from), curve.best_of_places_from, curve.best_of_places_to);
   }
@@ -89,8 +87,7 @@ std::string in_short(const ParkJangResult& result) {
 constexpr const char* not_comparable =
     "Neither the mesh's size, nor the path, nor the machine is stated, and the HIP there is a point, here a "
     "ball. The scan of the text leaves much of it illegible: a number is called certain where it stands in "
-    "two "
-    "places, likely where it stands in one; no sentence on future work could be read.\n";
+    "two places, likely where it stands in one; no sentence on future work could be read.\n";
 
 std::string fast_verdict(const ParkJangResult& result) {
   std::string text;
@@ -116,22 +113,18 @@ std::string park_jang_report(const std::vector<PaperMesh>& meshes, const ParkJan
   std::string text = "# Park & Jang 2018, reproduced\n\n";
   text +=
       "J.-S. Park and T.-J. Jang, on mesh grouping for fast collision detection in haptics, Journal of "
-      "Digital "
-      "Contents Society 19(1), 2018, pp. 199-204 (in Korean).\n\n";
+      "Digital Contents Society 19(1), 2018, pp. 199-204 (in Korean).\n\n";
   text += report_machine() + "\nMeshes:\n";
   for (const PaperMesh& mesh : meshes)
     text += fmt::format("- {}: {} triangles ({})\n", mesh.name, mesh.mesh.size(), mesh.origin);
   text += fmt::format(
       "\n{} steps in {} places of each mesh (slides, each of a seed of its own), of which {} are timed; "
-      "probe radius "
-      "{:.6g}{}, first seed {}. A query tests the probe against every group (a cuboid, the smallest sphere, "
-      "or the "
-      "sphere about the cuboid's centre, around the triangles of one cell), then the triangles of the groups "
-      "that hold "
-      "it; ungrouped, every triangle. Compared are the operations of a query, the same on every "
-      "machine: {:.0f} for a cuboid, {:.0f} for a sphere, {:.0f} for a triangle, as the textbook that the "
-      "paper cites tests them (a triangle on average; 29 to 86 by where the point is); times are "
-      "second.\n{}{}\n",
+      "probe radius {:.6g}{}, first seed {}. A query tests the probe against every group (a cuboid, the "
+      "smallest sphere, or the sphere about the cuboid's centre, around the triangles of one cell), then the "
+      "triangles of the groups that hold it; ungrouped, every triangle. Compared are the operations of a "
+      "query, the same on every machine: {:.0f} for a cuboid, {:.0f} for a sphere, {:.0f} for a triangle, as "
+      "the textbook that the paper cites tests them (a triangle on average; 29 to 86 by where the point is); "
+      "times are second.\n{}{}\n",
       settings.steps, settings.places, std::min(settings.timed_steps, settings.steps), settings.radius.value,
       settings.radius.percent ? " % of the box diagonal" : "", settings.seed, cuboid_operations,
       sphere_operations, triangle_operations,
