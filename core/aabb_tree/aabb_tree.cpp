@@ -243,6 +243,21 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
   });
 }
 
+std::optional<Impact> AabbTree::first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
+                                                 Session& session) const noexcept {
+  if (!(motion.max_shift() > 0)) return first_hit(sweep, session);
+  if (!(sweep.radius >= 0)) return std::nullopt;
+  const auto [center, reach] = MovingReach(sweep, motion);
+  if (!fourth_powers_fit(largest_difference(bounds(), center)))
+    return fallback().first_hit_moving(sweep, motion, session.work);
+  FirstTouch first(sweep);
+  for_each_near(center, reach, session.work, [&](const PreparedTriangle& triangle) {
+    const auto slot = static_cast<std::uint32_t>(&triangle - triangles_.data());
+    first.consider_moving(triangle, slot, motion, session.work.exact_decisions);
+  });
+  return moving_impact_of(first, triangles_, ids_, motion);
+}
+
 std::size_t AabbTree::bytes() const noexcept {
   return nodes_.capacity() * sizeof(Node) + triangles_.capacity() * sizeof(PreparedTriangle) + ids_.bytes();
 }

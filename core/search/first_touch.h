@@ -8,8 +8,10 @@
 #include <span>
 
 #include "core/detector.h"
+#include "core/geometry/moving_triangle_sweep.h"
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/sphere_triangle_sweep.h"
+#include "core/mesh_motion.h"
 #include "core/probe.h"
 #include "core/search/tracing.h"
 #include "core/triangle_ids.h"
@@ -37,14 +39,25 @@ class FirstTouch {
   void consider(const PreparedTriangle& triangle, std::uint32_t slot,
                 std::uint64_t& exact_decisions) noexcept {
     if constexpr (tracing) note_triangle(triangle.index);
-    const std::optional<double> fraction = sweep_hit(triangle, sweep_, limit(), exact_decisions);
-    if (!fraction || !(*fraction < fraction_ || (*fraction == fraction_ && triangle.index < index_))) return;
-    fraction_ = *fraction;
-    index_ = triangle.index;
-    slot_ = slot;
+    take(sweep_hit(triangle, sweep_, limit(), exact_decisions), triangle.index, slot);
+  }
+  /// Likewise while the mesh moves.
+  void consider_moving(const PreparedTriangle& triangle, std::uint32_t slot, const MeshMotion& motion,
+                       std::uint64_t& exact_decisions) noexcept {
+    if (!has_moved(triangle, motion.after())) return consider(triangle, slot, exact_decisions);
+    const TriangleCorners after = motion.corners_at(triangle.index, 1);
+    take(moving_sweep_hit(triangle.corner, after, sweep_, limit(), exact_decisions), triangle.index, slot);
   }
 
  private:
+  [[gnu::always_inline]] void take(const std::optional<double>& fraction, std::uint32_t index,
+                                   std::uint32_t slot) noexcept {
+    if (!fraction || !(*fraction < fraction_ || (*fraction == fraction_ && index < index_))) return;
+    fraction_ = *fraction;
+    index_ = index;
+    slot_ = slot;
+  }
+
   const Sweep& sweep_;
   double fraction_ = std::numeric_limits<double>::infinity();
   std::uint32_t index_ = std::numeric_limits<std::uint32_t>::max();
@@ -67,5 +80,20 @@ std::optional<Impact> impact_of(const FirstTouch& first, std::span<const Prepare
   const PreparedTriangle& triangle = triangles[first.slot()];
   return Impact{first.fraction(), contact_on_path(triangle, sweep, first.fraction(), ids[triangle.index])};
 }
+
+/// Ends a search for `first_hit_moving`: the contact is that of the probe and the triangle as they are then.
+std::optional<Impact> moving_impact_of(const FirstTouch& first, std::span<const PreparedTriangle> triangles,
+                                       const TriangleIds& ids, const MeshMotion& motion) noexcept;
+
+/// A ball about the middle of a sweep that holds, where the mesh is before it moves, all that can be met.
+struct MovingReach {
+  Vec3 center;
+  double reach;
+
+  MovingReach(const Sweep& sweep, const MeshMotion& motion) noexcept
+      : center(position_at(sweep, 0.5)),
+        reach((sweep.radius + (sweep.to - sweep.from).norm() / 2 + motion.max_shift()) * (1 + 0x1p-40) +
+              position_error(sweep)) {}
+};
 
 }  // namespace touchmark

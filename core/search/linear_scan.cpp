@@ -36,6 +36,15 @@ std::optional<Impact> LinearScan::first_hit(const Sweep& sweep, Work& work) cons
                    [&](double reach) { return nearest(sweep.from, reach, work); });
 }
 
+std::optional<Impact> LinearScan::first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
+                                                   Work& work) const noexcept {
+  FirstTouch first(sweep);
+  for (std::uint32_t slot = 0; slot < triangles.size(); ++slot)
+    first.consider_moving(triangles[slot], slot, motion, work.exact_decisions);
+  work.triangles += triangles.size();
+  return moving_impact_of(first, triangles, ids, motion);
+}
+
 std::size_t LinearScan::contacts(const Vec3& center, double reach, std::span<Contact> into,
                                  Work& work) const noexcept {
   if (!(reach >= 0) || !center.allFinite()) return 0;
