@@ -24,6 +24,9 @@ class MeshMotion {
   double max_shift() const noexcept { return max_shift_; }
   /// Returns the corners of a triangle of the mesh after a part of the tick, rounded; exact at 0 and 1.
   std::array<Vec3, 3> corners_at(std::uint32_t triangle, double time) const noexcept;
+  /// Returns the contact at the end of the tick that one at a part of it becomes when it stays on its
+  /// triangle and turns with it, rounded. Its distance is how far its point goes.
+  Contact carried(const Contact& contact, double time) const noexcept;
 
  private:
   const TriangleMesh* before_;

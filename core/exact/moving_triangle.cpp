@@ -126,7 +126,7 @@ class Meeting {
   }
 
  private:
-  /// Where the point is in the triangle's plane: is it in the triangle? By the signs that `sign_of` knows.
+  /// True if the triangle holds the point, which is in its plane; nothing where the signs leave that open.
   template <class SignOf>
   std::optional<bool> holds(const SignOf& sign_of) const noexcept {
     bool is_open = false;
