@@ -8,6 +8,7 @@
 #include "core/aabb_tree/builder.h"
 #include "core/flushed_denormals.h"
 #include "core/geometry/sweep_box.h"
+#include "core/search/first_moving_touch.h"
 #include "core/search/threads/parallel.h"
 #include "core/search/ties/certified_nearest.h"
 #include "core/search/ties/closest_candidates.h"
@@ -241,6 +242,20 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
   return impact_of(first, ids_, certified_, [&](double reach) {
     return nearest({sweep.from, sweep.radius}, reach, session);
   });
+}
+
+std::optional<Impact> AabbTree::first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
+                                                 Session& session) const noexcept {
+  if (!(motion.max_shift() > 0)) return first_hit(sweep, session);
+  if (!(sweep.radius >= 0)) return std::nullopt;
+  const auto [center, reach] = MovingReach(sweep, motion);
+  if (!fourth_powers_fit(largest_difference(bounds(), center)))
+    return fallback().first_hit_moving(sweep, motion, session.work);
+  FirstMovingTouch first(sweep, motion);
+  for_each_near(center, reach, session.work, [&](const PreparedTriangle& triangle) {
+    first.consider(triangle, session.work.exact_decisions);
+  });
+  return first.impact(ids_);
 }
 
 std::size_t AabbTree::bytes() const noexcept {

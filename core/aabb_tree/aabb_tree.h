@@ -51,6 +51,9 @@ class AabbTree {
   /// See the concept AnswersWithinBudget.
   Bracket nearest(const Probe& probe, double reach, Session& session, std::uint64_t budget) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
+  /// See the concept AnswersMovingSweep.
+  std::optional<Impact> first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
+                                         Session& session) const noexcept;
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept;
 

@@ -34,6 +34,12 @@ std::optional<Impact> BruteForce::first_hit(const Sweep& sweep, Session& session
   return scan().first_hit(sweep, session.work);
 }
 
+std::optional<Impact> BruteForce::first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
+                                                   Session& session) const noexcept {
+  if (!(motion.max_shift() > 0)) return first_hit(sweep, session);
+  return scan().first_hit_moving(sweep, motion, session.work);
+}
+
 std::size_t BruteForce::contacts(const Probe& probe, double reach, Session& session,
                                  std::span<Contact> into) const noexcept {
   return scan().contacts(probe.center, reach, into, session.work);

@@ -32,6 +32,9 @@ class BruteForce {
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
+  /// See the concept AnswersMovingSweep.
+  std::optional<Impact> first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
+                                         Session& session) const noexcept;
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept;
 

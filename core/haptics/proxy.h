@@ -22,10 +22,12 @@
 #include <span>
 
 #include "core/detector.h"
+#include "core/haptics/contact_planes.h"
 #include "core/haptics/coupling.h"
 #include "core/haptics/force_planes.h"
 #include "core/haptics/force_shading.h"
 #include "core/haptics/proxy_motion.h"
+#include "core/mesh_motion.h"
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
@@ -60,6 +62,13 @@ struct MovingOf<D> {
   using Type = typename D::Session::Moving;
 };
 
+/// A detector that can say what its mesh meets while it moves.
+template <class D>
+concept SeesMeshMotion = requires(const D& detector, const Sweep& sweep, const MeshMotion& motion,
+                                  typename D::Session& session) {
+  detector.first_hit_moving(sweep, motion, session);
+};
+
 /// One proxy over one detector, which must outlive it. Steps take no memory, and each asks a bounded number
 /// of questions, within Coupling::max_work where that is set: what is not known by then counts as touched.
 template <GuidesProxy D>
@@ -80,6 +89,19 @@ class Proxy {
     known_eighths_ = motion_.free_eighths().value_or(8);
     motion_.surface_moved(mesh);
   }
+  /// To be called before an update of the detector that may move the surface through the proxy, and before
+  /// surface_moved. The proxy goes straight from where it is to where the surface pushes it, and meets
+  /// nothing on that way while the surface moves. Returns false, and stays, where no such way is found.
+  bool surface_moving(const MeshMotion& motion,
+                      typename D::Session& session) noexcept requires SeesMeshMotion<D> {
+    const int known = motion_.free_eighths().value_or(8);
+    motion_.begin_way(motion_.position());
+    is_pushed_ = false;
+    // With the largest share of the radius with which it is free all along, less a half eighth of it.
+    for (int eighths = known; eighths >= 0; --eighths)
+      if (is_pushed(motion, known, eighths, session)) return true;
+    return false;
+  }
   /// To be called instead where bodies of a scene have moved, after Scene::move: from where the last step
   /// left them to where they are now. The next step begins with what they do to the proxy: it rests until
   /// one meets it, and then goes with that one. `moving` outlives that step.
@@ -91,7 +113,8 @@ class Proxy {
   /// One tick: follows the goal as far as the surface lets it. The state is this tick's, and stays where it
   /// is until the next one.
   const ProxyState& step(const Vec3& goal, typename D::Session& session) noexcept {
-    motion_.begin_way(motion_.position());
+    if (!is_pushed_) motion_.begin_way(motion_.position());
+    is_pushed_ = false;
     if constexpr (SeesMotion<D>) {
       // With the largest share of the radius with which it is free all along.
       for (int eighths = known_eighths_; !moving_.empty() && !is_carried(eighths, session);) --eighths;
@@ -161,6 +184,38 @@ class Proxy {
     }
     motion_.is_free_by(*eighths);
     return true;
+  }
+
+  /// Tries ways to the nearest places that are off what was met on those before, where that is after the
+  /// tick.
+  bool is_pushed(const MeshMotion& motion, int known, int eighths, typename D::Session& session) noexcept {
+    constexpr double first_share = 0x1p-8;  // of the surface's way, to stay off besides
+    const double eighth = motion_.coupling().radius / 8;
+    const Vec3 start = motion_.position();
+    Sweep sweep{start, start, eighth * std::max(eighths - 0.5, 0.0)};
+    ContactPlanes planes;
+    double beyond = 0;
+    for (int round = 0; round < 8; ++round) {
+      const std::optional<Impact> met = detector_->first_hit_moving(sweep, motion, session);
+      if (!met) {
+        if (sweep.to != start) motion_.carry(sweep.to, {0, 0, 1});
+        is_pushed_ = sweep.to != start;
+        return true;
+      }
+      const Contact& contact = met->contact;
+      const Contact after = motion.carried(contact, met->fraction);
+      // The surface comes from behind what it pushes.
+      const Vec3 coming = after.point - contact.point - (1 - met->fraction) * (sweep.to - start);
+      const bool is_turned = !(sweep.radius > 0) && after.normal.dot(coming) < 0;
+      const ContactPlane plane{is_turned ? Vec3(-after.normal) : after.normal, after.point, 0,
+                               contact.triangle};
+      planes.add(plane);
+      beyond = std::max(beyond, std::ldexp(first_share, round) * after.distance);
+      const double off = eighth * known + beyond;
+      const Vec3 above = sweep.to + std::max(off - plane.height(sweep.to), 0.0) * plane.normal;
+      sweep.to = planes.nearest_to(start, above, off, beyond / 8);
+    }
+    return false;
   }
 
   /// Rests until a body comes as near as so many eighths of the radius, and rests in that body's frame from
@@ -258,6 +313,7 @@ class Proxy {
   ProxyMotion motion_;
   LimitedWork* work_ = nullptr;                         ///< This step's, where it is limited.
   std::span<const typename MovingOf<D>::Type> moving_;  ///< what the next step has to follow
+  bool is_pushed_ = false;                              ///< the way of the next step has begun
   int known_eighths_ = 8;  ///< how many eighths of the radius were free before that
 };
 

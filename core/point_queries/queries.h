@@ -9,6 +9,7 @@
 #include <span>
 
 #include "core/detector.h"
+#include "core/mesh_motion.h"
 #include "core/point_queries/memory.h"
 #include "core/point_queries/surface.h"
 #include "core/search/around.h"
@@ -37,6 +38,9 @@ std::optional<Contact> nearest(const Surface& surface, const Vec3& center, doubl
                                bvh::FollowedPoint& point, Work& work) noexcept;
 std::optional<Impact> first_hit(const Surface& surface, const Sweep& sweep, PointMemory& memory,
                                 LimitedWork& work) noexcept;
+/// See the concept AnswersMovingSweep (moving_sweep.cpp).
+std::optional<Impact> first_hit_moving(const Surface& surface, const Sweep& sweep, const MeshMotion& motion,
+                                       LimitedWork& work) noexcept;
 std::size_t contacts(const Surface& surface, const Vec3& center, double reach, PointMemory& memory,
                      std::span<Contact> into, bool counts_all, LimitedWork& work) noexcept;
 /// See the concept TellsCloseTriangles (nearest.cpp).

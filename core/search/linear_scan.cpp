@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/search/contacts_within.h"
+#include "core/search/first_moving_touch.h"
 #include "core/search/ties/certified_nearest.h"
 
 namespace touchmark {
@@ -34,6 +35,14 @@ std::optional<Impact> LinearScan::first_hit(const Sweep& sweep, Work& work) cons
   if (!(sweep.radius >= 0)) return std::nullopt;
   return impact_of(first_touch(sweep, work), ids, is_certified,
                    [&](double reach) { return nearest(sweep.from, reach, work); });
+}
+
+std::optional<Impact> LinearScan::first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
+                                                   Work& work) const noexcept {
+  FirstMovingTouch first(sweep, motion);
+  for (const PreparedTriangle& triangle : triangles) first.consider(triangle, work.exact_decisions);
+  work.triangles += triangles.size();
+  return first.impact(ids);
 }
 
 std::size_t LinearScan::contacts(const Vec3& center, double reach, std::span<Contact> into,

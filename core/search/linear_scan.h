@@ -47,6 +47,8 @@ struct LinearScan {
   bool touches(const Probe& probe, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Work& work) const noexcept;
+  std::optional<Impact> first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
+                                         Work& work) const noexcept;
   std::size_t contacts(const Vec3& center, double reach, std::span<Contact> into, Work& work) const noexcept;
   /// Looks at all for the first touch.
   FirstTouch first_touch(const Sweep& sweep, Work& work) const noexcept;

@@ -82,6 +82,12 @@ class SphereCluster {
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
     return queries::first_hit(surface_, sweep, session);
   }
+  /// See the concept AnswersMovingSweep.
+  std::optional<Impact> first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
+                                         Session& session) const noexcept {
+    if (!(motion.max_shift() > 0)) return first_hit(sweep, session);
+    return queries::first_hit_moving(surface_, sweep, motion, session.work);
+  }
 
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept {
