@@ -16,6 +16,7 @@
 #include "core/detector.h"
 #include "core/geometry/distance_error.h"
 #include "core/geometry/point_triangle.h"
+#include "core/mesh_motion.h"
 #include "core/mesh_update.h"
 #include "core/search/linear_scan.h"
 

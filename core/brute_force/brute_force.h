@@ -10,6 +10,7 @@
 #include "core/aabb.h"
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
+#include "core/mesh_motion.h"
 #include "core/mesh_update.h"
 #include "core/search/linear_scan.h"
 

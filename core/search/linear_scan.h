@@ -15,6 +15,7 @@
 #include "core/aabb.h"
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
+#include "core/mesh_motion.h"
 #include "core/probe.h"
 #include "core/search/first_touch.h"
 #include "core/triangle_ids.h"
