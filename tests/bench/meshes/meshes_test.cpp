@@ -68,7 +68,8 @@ TEST(Meshes, ABadNameOrParameterIsNamedInOneLine) {
                            "dragon:0",
                            "bunny:2"}) {
     const std::string message = refusal(name);
-    EXPECT_NE(message.find("\"" + std::string(name) + "\""), std::string::npos) << name << ": " << message;
+    EXPECT_NE(message.find(std::string("\"").append(name).append("\"")), std::string::npos)
+        << name << ": " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
 }
