@@ -249,7 +249,11 @@ PathGap::Approach PathGap::approach_to(Nearest feature, double fraction) const n
 std::optional<double> PathGap::precise_touch(double fraction) const noexcept {
   constexpr int max_steps = 4;
   constexpr double margin = 64 * unit_roundoff, narrow = 0x1.8p-51;
-  if (unit_ != 1) return std::nullopt;
+  if (unit_ != 1) {
+    const PreparedTriangle triangle = scaled(triangle_, unit_);
+    const Sweep sweep{unit_ * sweep_.from, unit_ * sweep_.to, unit_ * sweep_.radius};
+    return PathGap(triangle, sweep).precise_touch(fraction);
+  }
   for (int step = 0; step < max_steps; ++step) {
     // A bare point that touches off the face's plane goes along it.
     const std::optional<Nearest> feature =

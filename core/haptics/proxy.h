@@ -186,24 +186,32 @@ class Proxy {
     return true;
   }
 
+  /// Goes to a place if nothing is met on the way there while the mesh moves.
+  bool is_pushed_to(const Sweep& sweep, const MeshMotion& motion, std::optional<Impact>& met,
+                    typename D::Session& session) noexcept {
+    met = detector_->first_hit_moving(sweep, motion, session);
+    if (met) return false;
+    is_pushed_ = sweep.to != sweep.from;
+    if (is_pushed_) motion_.carry(sweep.to, {0, 0, 1});
+    return true;
+  }
   /// Tries ways to the nearest places that are off what was met on those before, where that is after the
-  /// tick.
+  /// tick. Then it goes ahead of what it is met by first, ever faster.
   bool is_pushed(const MeshMotion& motion, int known, int eighths, typename D::Session& session) noexcept {
     constexpr double first_share = 0x1p-8;  // of the surface's way, to stay off besides
     const double eighth = motion_.coupling().radius / 8;
+    const double longest = motion.max_shift() + 2 * motion_.coupling().radius;
     const Vec3 start = motion_.position();
     Sweep sweep{start, start, eighth * std::max(eighths - 0.5, 0.0)};
+    std::optional<Impact> met;
     ContactPlanes planes;
+    Vec3 ahead = Vec3::Zero();
     double beyond = 0;
-    for (int round = 0; round < 8; ++round) {
-      const std::optional<Impact> met = detector_->first_hit_moving(sweep, motion, session);
-      if (!met) {
-        if (sweep.to != start) motion_.carry(sweep.to, {0, 0, 1});
-        is_pushed_ = sweep.to != start;
-        return true;
-      }
+    for (int round = 0; round < 8 && (sweep.to - start).norm() <= longest; ++round) {
+      if (is_pushed_to(sweep, motion, met, session)) return true;
       const Contact& contact = met->contact;
       const Contact after = motion.carried(contact, met->fraction);
+      if (round == 0) ahead = after.point - contact.point;
       // The surface comes from behind what it pushes.
       const Vec3 coming = after.point - contact.point - (1 - met->fraction) * (sweep.to - start);
       const bool is_turned = !(sweep.radius > 0) && after.normal.dot(coming) < 0;
@@ -214,6 +222,10 @@ class Proxy {
       const double off = eighth * known + beyond;
       const Vec3 above = sweep.to + std::max(off - plane.height(sweep.to), 0.0) * plane.normal;
       sweep.to = planes.nearest_to(start, above, off, beyond / 8);
+    }
+    for (double share = first_share; share <= 2; share *= 2) {
+      sweep.to = start + (1 + share) * ahead;
+      if (is_pushed_to(sweep, motion, met, session)) return true;
     }
     return false;
   }

@@ -580,8 +580,8 @@ TEST_F(LyingSweep, WhoDecidesExactlyIsExcusedNothing) {
   EXPECT_EQ(told(above, 0.25, 0.5, 0), Counts{.false_contacts = 1});
   EXPECT_EQ(told(1, 0, 0.5, 0.5), Counts{});
   EXPECT_EQ(told(1, 0, 0.5, above), Counts{.missed = 1});
-  EXPECT_EQ(told(1, 0, 0.5, 0.5 - 1e-14), Counts{});
-  EXPECT_EQ(told(1, 0, 0.5, 0.5 - 1e-12), Counts{.false_contacts = 1});
+  EXPECT_EQ(told(1, 0, 0.5, 0.5 - 0x1p-50), Counts{});
+  EXPECT_EQ(told(1, 0, 0.5, 0.5 - 0x1p-49), Counts{.false_contacts = 1});
   EXPECT_EQ(told(1, 0.5, 0.5, 1), Counts{});
   EXPECT_EQ(told(1, 0.5, 0.5, std::nullopt), Counts{.missed = 1});
   EXPECT_EQ(told(1, 0.5, below, 1), Counts{.false_contacts = 1});

@@ -89,6 +89,24 @@ TYPED_TEST(PushedProxy, IsOnTheSameSideOfASheetThatGoesOverItEachTick) {
   EXPECT_GT(kept, ticks * 9 / 10);
 }
 
+/// A bowl goes up and leans over meanwhile: each plane that a bare point in it is pushed off leads to the
+/// next.
+TYPED_TEST(PushedProxy, GoesAheadOfABowlWhosePlanesLeadNowhere) {
+  const auto bowl = [](double height, double tilt, double bend) {
+    return sheet([=](double x, double y) { return Vec3(x, y, height + tilt * x + bend * (x * x + y * y)); });
+  };
+  const TriangleMesh before = bowl(-0.23322461500599601, 0.13741389378607002, 0.13550678300915553),
+                     after = bowl(0.091299600741754916, -0.27592053104386388, 0.036543558444518932);
+  const Vec3 start(-2.8754776337791554e-14, 0.055088544095615248, -0.23135839715801759);
+  const TypeParam detector = TypeParam::build(before);
+  typename TypeParam::Session session;
+  Proxy<TypeParam> proxy(detector, {.radius = 0, .stiffness = 100}, &before);
+  proxy.place(start);
+  EXPECT_TRUE(proxy.surface_moving(MeshMotion(before, after), session));
+  EXPECT_TRUE(passes_by(before, after, start, proxy.state().position));
+  EXPECT_LT((proxy.state().position - start).norm(), 1);
+}
+
 TYPED_TEST(PushedProxy, EndsItsRadiusOffALevelSheetAndRestsWhereNoneComes) {
   const auto level = [](double height) {
     return sheet([&](double x, double y) { return Vec3(x, y, height); });
