@@ -67,7 +67,7 @@ class SurfaceList {
   struct Body {
     std::uint32_t index = 0;
     const TriangleMesh* mesh = nullptr;
-    Vec3 center;  ///< the place in the body's frame
+    Vec3 center = Vec3::Zero();  ///< the place in the body's frame
   };
 
   /// Lists nothing yet, about this place, and is to be complete up to `covered` from there.
