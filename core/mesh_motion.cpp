@@ -41,7 +41,7 @@ Eigen::Matrix3d frame_of(const std::array<Vec3, 3>& corner) noexcept {
 Contact MeshMotion::carried(const Contact& contact, double time) const noexcept {
   Contact best = contact;
   double least = std::numeric_limits<double>::infinity();
-  // Of the triangles of one polygon, that which is nearest to the contact's point.
+  // The contact names a polygon: its triangle that is nearest to the contact's point counts.
   std::uint32_t index = before_->ids().empty() ? contact.triangle : 0;
   if (!before_->ids().empty())
     index = static_cast<std::uint32_t>(std::ranges::lower_bound(before_->ids(), contact.triangle) -

@@ -38,7 +38,7 @@ class MeshMotion {
 // clang-format off
 /// The first touch of a probe that moves along a straight line while the mesh goes from where the detector has
 /// it to where it is next. A point is touched where and only where it is touched exactly; its fraction is at most
-/// 2^-48 early. A ball may be told to be touched where it is as near as max_early_moving_gap of
+/// 2^-50 early. A ball may be told to be touched where it is as near as max_early_moving_gap of
 /// core/geometry/moving_triangle_sweep.h says. No fraction is late. A limit of work plays no part.
 template <class D>
 concept AnswersMovingSweep = Detector<D> && requires(const D& detector, const Sweep& sweep,

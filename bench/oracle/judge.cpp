@@ -32,7 +32,7 @@ ErrorCounts total(std::size_t size, unsigned threads, Charges* charges, const Ju
 }
 
 Accuracy of_sweeps(Accuracy accuracy) {
-  // Where the path's start is within M of the triangle and the path's coordinates within 2 M.
+  // The path's start is within M of the triangle, and the path's coordinates are within 2 M.
   const double least = accuracy.guarantee == Guarantee::exact ? max_path_error(1, 2) : kernel_relative_error;
   accuracy.relative = std::max(accuracy.relative, least);
   return accuracy;

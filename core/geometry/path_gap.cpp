@@ -22,7 +22,7 @@ double direction_error(double distance, double error) noexcept {
   return relative < 0.25 ? 2 * std::sqrt(relative * (1 + relative)) : infinity;
 }
 
-/// Is the value beyond the margin times the root of the square?
+/// True if the value is beyond the margin times the root of the square.
 bool exceeds(double value, double margin, double square) noexcept {
   return value > 0 && value * value > margin * margin * square;
 }

@@ -39,7 +39,7 @@ class PathGap {
     const double fall = there.slope_error - there.slope;
     return fall < length_ ? fall : length_;
   }
-  /// Is it known that the ball has come to the foot found there, a point of the triangle, `more` later?
+  /// True if the ball has surely come to the foot found there, a point of the triangle, `more` later.
   bool reaches_foot(const Sample& there, double more) const noexcept;
   /// Is it known that ball and triangle touch at or before `fraction` + `more`, seen from what was found at
   /// `fraction`? May say no where they do.

@@ -62,13 +62,6 @@ struct MovingOf<D> {
   using Type = typename D::Session::Moving;
 };
 
-/// A detector that can say what its mesh meets while it moves.
-template <class D>
-concept SeesMeshMotion = requires(const D& detector, const Sweep& sweep, const MeshMotion& motion,
-                                  typename D::Session& session) {
-  detector.first_hit_moving(sweep, motion, session);
-};
-
 /// One proxy over one detector, which must outlive it. Steps take no memory, and each asks a bounded number
 /// of questions, within Coupling::max_work where that is set: what is not known by then counts as touched.
 template <GuidesProxy D>
@@ -93,7 +86,7 @@ class Proxy {
   /// surface_moved. The proxy goes straight from where it is to where the surface pushes it, and meets
   /// nothing on that way while the surface moves. Returns false, and stays, where no such way is found.
   bool surface_moving(const MeshMotion& motion,
-                      typename D::Session& session) noexcept requires SeesMeshMotion<D> {
+                      typename D::Session& session) noexcept requires AnswersMovingSweep<D> {
     const int known = motion_.free_eighths().value_or(8);
     motion_.begin_way(motion_.position());
     is_pushed_ = false;

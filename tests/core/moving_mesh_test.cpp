@@ -129,8 +129,8 @@ TEST(MovingMesh, MeetsAPointExactlyWhereTheOracleMeetsIt) {
   EXPECT_GT(apart, 40U);
 }
 
-/// Of balls samples of the motion can miss a touch, but a touch that they find must be told before it. A
-/// touch that is told is as near as it may be.
+/// Samples of the motion can miss a ball's touch. A touch that they find must be told before it, and one that
+/// is told is as near as it may be.
 TEST(MovingMesh, MissesNoBallAndTellsNoneThatIsFarther) {
   Random random(2);
   std::size_t met = 0, made_up = 0, apart = 0;

@@ -135,7 +135,7 @@ Moving cross(const Moving& a, const Moving& b) {
 }
 Moving difference(const Moving& a, const Moving& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/// Is the origin in the triangle, by the areas that it makes with the sides, or else on a side?
+/// True if the origin is in the triangle, by the areas that it makes with the sides, or else on a side.
 bool holds_origin(const std::array<Moving, 3>& corner, Zero& when) {
   const Moving normal = cross(difference(corner[1], corner[0]), difference(corner[2], corner[0]));
   if (when.sign_of(dot(corner[0], normal)) != 0) return false;

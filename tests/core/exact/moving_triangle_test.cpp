@@ -41,16 +41,25 @@ Vec3 on_grid(Random& random, int steps) {
 
 Vec3 any(Random& random) { return {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)}; }
 
+/// `corner` draws both triangles, then `point` the ends of the point's way.
+template <class Corner, class Point>
+Case drawn_by(const Corner& corner, const Point& point) {
+  Case c;
+  for (Vec3& at : c.start) at = corner();
+  for (Vec3& at : c.end) at = corner();
+  c.from = point();
+  c.to = point();
+  return c;
+}
+Case any_case(Random& random) {
+  return drawn_by([&] { return any(random); }, [&] { return Vec3(0.3 * any(random)); });
+}
+
 TEST(FirstMeeting, IsTheOraclesForAnyTriangles) {
   Random random(1);
   Counts counts;
   for (int i = 0; i < 500; ++i) {
-    Case c;
-    for (Vec3& corner : c.start) corner = any(random);
-    for (Vec3& corner : c.end) corner = any(random);
-    c.from = 0.3 * any(random);
-    c.to = 0.3 * any(random);
-    judge(c, counts);
+    judge(any_case(random), counts);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(counts.met, 20U);
@@ -64,12 +73,8 @@ TEST(FirstMeeting, IsTheOraclesOnSidesAndCornersAndWhereAnAreaVanishes) {
   for (const int steps : {1, 2, 5}) {
     Counts counts;
     for (int i = 0; i < 800; ++i) {
-      Case c;
-      for (Vec3& corner : c.start) corner = on_grid(random, steps);
-      for (Vec3& corner : c.end) corner = on_grid(random, steps);
-      c.from = on_grid(random, steps);
-      c.to = on_grid(random, steps);
-      judge(c, counts);
+      const auto drawn = [&] { return on_grid(random, steps); };
+      judge(drawn_by(drawn, drawn), counts);
       if (HasFatalFailure()) return;
     }
     EXPECT_GT(counts.met, 20U);
@@ -88,12 +93,7 @@ TEST(FirstMeeting, IsTheOraclesInAPlaneAndOnALine) {
         for (int k = 0; k < free; ++k) v[(i + k) % 3] = g[k];
         return v;
       };
-      Case c;
-      for (Vec3& corner : c.start) corner = drawn();
-      for (Vec3& corner : c.end) corner = drawn();
-      c.from = drawn();
-      c.to = drawn();
-      judge(c, counts);
+      judge(drawn_by(drawn, drawn), counts);
       if (HasFatalFailure()) return;
     }
     EXPECT_GT(counts.met, 20U);
@@ -137,11 +137,7 @@ TEST(FirstMeeting, IsTheOraclesWhereATriangleTurnsOverThroughThePoint) {
 TEST(FirstMeeting, IsTheSameInAnyUnitOfDouble) {
   Random random(5);
   for (int i = 0; i < 300; ++i) {
-    Case c;
-    for (Vec3& corner : c.start) corner = any(random);
-    for (Vec3& corner : c.end) corner = any(random);
-    c.from = 0.3 * any(random);
-    c.to = 0.3 * any(random);
+    const Case c = any_case(random);
     const auto told = first_meeting(c.start, c.end, c.from, c.to);
     for (const double unit : {0x1p-900, 0x1p1000}) {
       Case scaled = c;

@@ -15,7 +15,7 @@ namespace {
 
 const PreparedTriangle triangle = prepare({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 0);
 
-/// Of a fraction: four units in the last place of 1.
+/// A fraction may be early by four units in the last place of 1.
 constexpr double max_early = 0x1p-50;
 
 /// Triangles and sweeps in and about the cube [-1, 1]^3, seeded.
