@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <utility>
 
 #include "core/exact/big_integer.h"
 #include "core/exact/exact_closest_point.h"
 #include "core/exact/exact_square.h"
 #include "core/exact/integer_lattice.h"
+#include "core/exact/orientation.h"
 
 namespace touchmark {
 namespace {
@@ -25,6 +28,32 @@ ExactClosestPoint closest_of(const Lattice& lattice, const TriangleCorners& tria
 
 bool all_finite(const TriangleCorners& triangle, const Vec3& point) noexcept {
   return point.allFinite() && triangle[0].allFinite() && triangle[1].allFinite() && triangle[2].allFinite();
+}
+
+/// meets_by_sides of a path in the triangle's plane. They are apart where a side of one has the other
+/// strictly beyond it.
+std::optional<bool> meets_in_plane(const TriangleCorners& triangle, const Vec3& from,
+                                   const Vec3& to) noexcept {
+  Eigen::Index dropped = 0;
+  const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  normal.cwiseAbs().maxCoeff(&dropped);
+  const auto flat = [&](const Vec3& v) { return Vec3(v[(dropped + 1) % 3], v[(dropped + 2) % 3], 0); };
+  const Vec3 a = flat(triangle[0]), b = flat(triangle[1]), c = flat(triangle[2]), p = flat(from),
+             q = flat(to);
+  const int turn = side_of_line_xy(a, b, c);
+  if (turn == 0) return std::nullopt;
+  for (const auto& [v, w] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+    if (side_of_line_xy(v, w, p) == -turn && side_of_line_xy(v, w, q) == -turn) return false;
+  const int beyond = side_of_line_xy(p, q, a);
+  return beyond == 0 || side_of_line_xy(p, q, b) != beyond || side_of_line_xy(p, q, c) != beyond;
+}
+
+exact::ExactPath<1> path_on(const Lattice& lattice, const TriangleCorners& triangle, const Vec3& from,
+                            const Vec3& to) noexcept {
+  const Vector<1> origin = lattice(from);
+  return {lattice(to) - origin,
+          {lattice(triangle[0]) - origin, lattice(triangle[1]) - origin, lattice(triangle[2]) - origin},
+          {}};
 }
 
 }  // namespace
@@ -48,9 +77,27 @@ exact::Square exact::square(const Lattice& lattice, const TriangleCorners& trian
   return {closest.numerator, closest.denominator};
 }
 
+std::optional<bool> meets_by_sides(const TriangleCorners& triangle, const Vec3& from,
+                                   const Vec3& to) noexcept {
+  const auto& [a, b, c] = triangle;
+  const int first = side_of_plane(a, b, c, from), last = side_of_plane(a, b, c, to);
+  if (first == 0 && last == 0) return meets_in_plane(triangle, from, to);
+  if (first == last) return false;
+  if (first == 0 || last == 0) {
+    const Vec3& in_plane = first == 0 ? from : to;
+    return meets_in_plane(triangle, in_plane, in_plane);
+  }
+  // Where the path meets the plane, these are as the barycentric coordinates.
+  const int ab = side_of_plane(from, to, a, b), bc = side_of_plane(from, to, b, c);
+  if (ab * bc < 0) return false;
+  const int ca = side_of_plane(from, to, c, a);
+  return ab * ca >= 0 && bc * ca >= 0;
+}
+
 bool within_exactly(const TriangleCorners& triangle, const Vec3& point, double radius) noexcept {
   if (!(radius >= 0) || !all_finite(triangle, point)) return false;
   if (std::isinf(radius)) return true;
+  if (radius == 0 && side_of_plane(triangle[0], triangle[1], triangle[2], point) != 0) return false;
   Lattice lattice(triangle, point);
   lattice.add(radius);
   const ExactClosestPoint closest = closest_of(lattice, triangle, point);
@@ -62,18 +109,26 @@ bool path_within_exactly(const TriangleCorners& triangle, const Vec3& from, cons
                          double radius) noexcept {
   if (!(radius >= 0) || !all_finite(triangle, from) || !to.allFinite()) return false;
   if (std::isinf(radius)) return true;
+  if (radius == 0 && fraction == 1)
+    if (const std::optional<bool> meets = meets_by_sides(triangle, from, to)) return *meets;
   Lattice lattice(triangle, from);
   lattice.add(to);
   lattice.add(radius);
   // On a grid so much finer that the part ends on it, too.
   const exact::Limb fine = fraction < 1 ? exact::Limb{1} << 53 : 1;
   const auto part = static_cast<exact::Limb>(fraction * static_cast<double>(fine));
-  const Vector<1> origin = lattice(from);
-  exact::ExactPath<1> path{times(lattice(to) - origin, part), {}, {}};
-  for (std::size_t i = 0; i < 3; ++i) path.w[i] = times(lattice(triangle[i]) - origin, fine);
+  exact::ExactPath<1> path = path_on(lattice, triangle, from, to);
+  path.path = times(path.path, part);
+  for (Vector<1>& w : path.w) w = times(w, fine);
   const BigInteger<1> r = lattice(radius).times(fine);
   path.squared_radius = r * r;
   return comes_within(path);
+}
+
+double first_meeting_exactly(const TriangleCorners& triangle, const Vec3& from, const Vec3& to) noexcept {
+  Lattice lattice(triangle, from);
+  lattice.add(to);
+  return std::nextafter(exact::first_meeting(path_on(lattice, triangle, from, to)).rounded(), 0.0);
 }
 
 std::strong_ordering compare_exactly(const TriangleCorners& a, const TriangleCorners& b,

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <compare>
+#include <optional>
 
 #include "core/exact/double_double.h"
 #include "core/exact/feature.h"
@@ -19,11 +20,21 @@ namespace touchmark {
 /// least 0; the radius may be infinite.
 bool within_exactly(const TriangleCorners& triangle, const Vec3& point, double radius) noexcept;
 
+/// Returns whether a bare point meets the triangle on the path from `from` to `to`, by the sides of planes
+/// and lines that these points are on: exact, and doubles decide most of them. Nothing where the triangle has
+/// no area. Finite coordinates.
+std::optional<bool> meets_by_sides(const TriangleCorners& triangle, const Vec3& from,
+                                   const Vec3& to) noexcept;
+
 /// Does the part of the path from `from` to `to` up to and with `fraction` come within the radius of the
 /// triangle? Exact, for a fraction in [0, 1] that is a multiple of 2^-53; false when a coordinate is not
 /// finite or the radius not at least 0.
 bool path_within_exactly(const TriangleCorners& triangle, const Vec3& from, const Vec3& to, double fraction,
                          double radius) noexcept;
+
+/// Returns where a bare point first meets the triangle on a path from `from` to `to` that meets it: a
+/// fraction below by less than 2^-51 or, at the start, 0. Finite coordinates.
+double first_meeting_exactly(const TriangleCorners& triangle, const Vec3& from, const Vec3& to) noexcept;
 
 /// How the distances to two triangles compare. Exact, for finite coordinates.
 std::strong_ordering compare_exactly(const TriangleCorners& a, const TriangleCorners& b,

@@ -142,6 +142,30 @@ bool comes_within(const ExactPath<c>& p) noexcept {
          end_is_within<c>({p.w[0] - p.path, p.w[1] - p.path, p.w[2] - p.path}, p.squared_radius);
 }
 
+/// Returns where on its path a bare point first meets the triangle. The path meets it.
+template <int c>
+Scaled first_meeting(const ExactPath<c>& p) noexcept {
+  const Vector<2 * c> normal = cross(p.w[1] - p.w[0], p.w[2] - p.w[0]);
+  const BigInteger<3 * c> drop = dot(p.path, normal);
+  if (drop.sign() != 0) return dot(p.w[0], normal).scaled() / drop.scaled();
+  if (end_is_within<c>(p.w, {})) return {};
+  Scaled first{{1}, 0};
+  const auto consider = [&](const auto& on_path, const auto& whole) {
+    if (on_path.sign() < 0 || on_path > whole) return;
+    const Scaled part = on_path.scaled() / whole.scaled();
+    if (part.rounded() < first.rounded()) first = part;
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector<c>&w = p.w[i], edge = p.w[(i + 1) % 3] - w;
+    const Vector<2 *c> moment = cross(w, p.path), across = cross(p.path, edge);
+    if (is_zero(moment)) consider(dot(w, p.path), dot(p.path, p.path));
+    const BigInteger<4 *c> whole = dot(across, across), on_edge = dot(moment, across);
+    if (whole.sign() == 0 || dot(w, across).sign() != 0 || on_edge.sign() < 0 || on_edge > whole) continue;
+    consider(dot(cross(w, edge), across), whole);
+  }
+  return first;
+}
+
 /// Square root of a quotient, in units of 2^exponent.
 inline DoubleDouble root(const Scaled& numerator, const Scaled& denominator, int exponent) noexcept {
   Scaled square = numerator / denominator;

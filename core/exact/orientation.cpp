@@ -50,6 +50,8 @@ int side_of_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) no
   const double magnitude = (std::abs(xy) + std::abs(yx)) * std::abs(to_c.z()) +
                            (std::abs(yz) + std::abs(zy)) * std::abs(to_a.z()) +
                            (std::abs(zx) + std::abs(xz)) * std::abs(to_b.z());
+  // Four points of a plane that is normal to an axis.
+  if (magnitude == 0 && (to_a.array() == 0 && to_b.array() == 0 && to_c.array() == 0).any()) return 0;
   // Shewchuk, "Adaptive precision floating-point arithmetic" (1997): (7 + 56 u) u.
   const int sure = sure_sign(value, magnitude, 8);
   return sure != 0 ? -sure : side_of_plane_exactly(a, b, c, p);

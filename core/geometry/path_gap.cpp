@@ -276,6 +276,18 @@ std::optional<double> PathGap::precise_touch(double fraction) const noexcept {
   return std::nullopt;
 }
 
+std::array<double, 7> PathGap::possible_touches(double fraction) const noexcept {
+  constexpr int steps = 3;  // each corrects what rounding did to the one before
+  std::array<double, 7> touches;
+  touches.fill(fraction);
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    for (int step = 0; step < steps; ++step) {
+      const Approach to = approach_to(i == 6 ? Nearest{3, 0} : Nearest{i < 3 ? 2 : 1, i % 3}, touches[i]);
+      touches[i] += first_root(to.value, to.fall, to.curve, 0);
+    }
+  return touches;
+}
+
 Contact PathGap::contact(double fraction, TriangleId id) const noexcept {
   const Sample there = at(fraction);
   const double distance = there.offset.norm();

@@ -54,6 +54,10 @@ class PathGap {
   /// double-doubles do not tell it. The path touches, and not before `fraction`: docs/exactness.md, E16.
   std::optional<double> precise_touch(double fraction) const noexcept;
 
+  /// Returns where the ball touches the plane, the lines and the points of the triangle's features after
+  /// `fraction`, rounded: one of them is likely where it touches the triangle. Infinite where there is none.
+  std::array<double, 7> possible_touches(double fraction) const noexcept;
+
   double max_error() const noexcept { return error_; }
   /// Bounds the gap where a fraction is early by 2^-50.
   double max_early() const noexcept { return 0x1p-49 * length_; }

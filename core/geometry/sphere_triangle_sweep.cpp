@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "core/exact/distance_predicates.h"
-#include "core/exact/orientation.h"
 #include "core/float_limits.h"
 #include "core/geometry/path_gap.h"
 
@@ -36,25 +35,14 @@ class FirstTouch {
     ++exact_decisions_;
     return within_exactly(triangle_.corner, sweep_.from, sweep_.radius);
   }
-  bool comes_within(double fraction) const noexcept {
+  bool comes_within(double fraction) noexcept {
+    ++exact_decisions_;
     return path_within_exactly(triangle_.corner, sweep_.from, sweep_.to, fraction, sweep_.radius);
   }
   /// Surely nothing touches from there on? No more than `above` is asked for, up to `end`.
   bool stays_above(double above, const Reached& reached, double end) const noexcept {
     return reached.here.gap - reached.here.error - above >
            gap_.steepest_fall(reached.here) * (end - reached.fraction);
-  }
-  /// Returns true if a bare point surely meets nothing, by the sides of the triangle's plane that its ends
-  /// are on: strictly on one side they do not meet the plane, and one on it meets the plane there alone. This
-  /// costs a small part of what distances do.
-  bool keeps_off_plane(const PathGap::Sample& start) const noexcept {
-    const auto& [a, b, c] = triangle_.corner;
-    const int first = side_of_plane(a, b, c, sweep_.from), last = side_of_plane(a, b, c, sweep_.to);
-    if (first == 0 && last == 0) return false;
-    if (first == 0) return start.gap > start.error;
-    if (last != 0) return first == last;
-    const PathGap::Sample end = gap_.at(1);
-    return end.gap > end.error;
   }
   bool stays_apart(const Reached& reached) const noexcept {
     return !reached.here.over_face && gap_.stays_apart(reached.fraction, reached.here, 1);
@@ -66,7 +54,7 @@ class FirstTouch {
   static Crossing crossing_of(const Reached& first, const Reached& second) noexcept;
   Reached advance(const Reached& reached) const noexcept;
   std::optional<TouchBounds> conclude(const Reached& reached) const noexcept;
-  std::optional<TouchBounds> decide(const Reached& reached) noexcept;
+  std::optional<TouchBounds> decide(const Reached& reached, bool touches) noexcept;
   double halve(double low, double high) noexcept;
 
   const PreparedTriangle& triangle_;
@@ -121,10 +109,10 @@ std::optional<TouchBounds> FirstTouch::conclude(const Reached& reached) const no
   return TouchBounds{std::max(reached.fraction, smallest), std::min(reached.fraction + more + epsilon, 1.0)};
 }
 
-/// Decides exactly where the path grazes, so that steps lead nowhere or the slope drowns in rounding.
-std::optional<TouchBounds> FirstTouch::decide(const Reached& reached) noexcept {
-  ++exact_decisions_;
-  if (!comes_within(1)) return std::nullopt;
+/// Decides exactly, unless it is known that they touch: where the path grazes, so that steps lead nowhere or
+/// the slope drowns in rounding.
+std::optional<TouchBounds> FirstTouch::decide(const Reached& reached, bool touches) noexcept {
+  if (!touches && !comes_within(1)) return std::nullopt;
   const double fraction = refine({std::max(reached.fraction, smallest), 1});
   return TouchBounds{fraction, fraction};
 }
@@ -132,45 +120,61 @@ std::optional<TouchBounds> FirstTouch::decide(const Reached& reached) noexcept {
 double FirstTouch::refine(const TouchBounds& bounds) noexcept {
   constexpr double narrow = 0x1p-50;
   if (bounds.last - bounds.first < narrow) return bounds.first;
-  const std::optional<double> precise = gap_.precise_touch(bounds.first);
-  return precise ? *precise : halve(bounds.first, bounds.last);
+  if (const std::optional<double> precise = gap_.precise_touch(bounds.first)) return *precise;
+  if (sweep_.radius > 0) return halve(bounds.first, bounds.last);
+  ++exact_decisions_;
+  return std::max(bounds.first, first_meeting_exactly(triangle_.corner, sweep_.from, sweep_.to));
 }
 
-/// Halves the part in which the first touch is, down to less than 2^-50 of the path.
+/// Divides the part in which the first touch is, down to less than 2^-50 of the path: beside the places where
+/// it may be, then in the middle.
 double FirstTouch::halve(double low, double high) noexcept {
   constexpr double grid = 0x1p53, narrow = 0x1p-51;
-  ++exact_decisions_;
-  while (high - low > narrow) {
-    const double middle = std::round(std::midpoint(low, high) * grid) / grid;
+  const auto divide = [&](double place) {
+    const double middle = std::round(place * grid) / grid;
+    if (!(low < middle && middle < high)) return;
     const PathGap::Sample there = gap_.at(middle);
     const bool is_off = there.gap > there.error;
     const bool after = there.gap < -there.error || (is_off && there.surely_rises()) ||
                        (!(is_off && there.surely_falls()) && comes_within(middle));
     (after ? high : low) = middle;
+  };
+  for (const double touch : gap_.possible_touches(low)) {
+    if (high - low <= narrow) break;
+    divide(touch - narrow / 2);
+    divide(touch + narrow / 2);
   }
+  while (high - low > narrow) divide(std::midpoint(low, high));
   return low;
 }
 
 std::optional<TouchBounds> FirstTouch::find(double limit) noexcept {
   // Grazing makes Newton's steps halve instead of square the error: this many exhaust a double's digits.
   constexpr int max_steps = 64;
+  // A bare point is known to touch before that. These suffice where it does not graze.
+  constexpr int max_point_steps = 4;
   if (!gap_.is_defined()) return std::nullopt;
   Reached reached{0, gap_.at(0)};
-  if (sweep_.radius == 0 && !stays_above(0, reached, 1) && keeps_off_plane(reached.here)) return std::nullopt;
+  bool touches = false;
+  if (sweep_.radius == 0 && !stays_above(0, reached, 1)) {
+    const std::optional<bool> meets = meets_by_sides(triangle_.corner, sweep_.from, sweep_.to);
+    if (meets == false) return std::nullopt;
+    touches = meets.has_value();
+  }
   if (reached.here.gap <= reached.here.error && touches_at_start(reached.here)) return TouchBounds{0, 0};
-  for (int step = 0; step < max_steps; ++step) {
+  for (int step = 0; step < (touches ? max_point_steps : max_steps); ++step) {
     if (reached.here.surely_rises() || stays_above(0, reached, 1) || stays_apart(reached))
       return std::nullopt;
     if (reached.fraction >= 1 && reached.here.gap > reached.here.error) return std::nullopt;
     // Up to the limit the gap is more than at the fraction told.
     if (stays_above(gap_.max_early(), reached, limit)) return std::nullopt;
     if (const std::optional<TouchBounds> bounds = conclude(reached)) return bounds;
-    if (reached.here.gap <= 2 * reached.here.error) return decide(reached);
+    if (reached.here.gap <= 2 * reached.here.error) return decide(reached, touches);
     const Reached next = advance(reached);
     if (!(next.fraction > reached.fraction)) break;
     reached = next;
   }
-  return decide(reached);
+  return decide(reached, touches);
 }
 
 }  // namespace

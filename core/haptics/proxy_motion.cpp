@@ -137,12 +137,12 @@ void ProxyMotion::go(const Vec3& to) noexcept {
 double ProxyMotion::margin(const Vec3& target) const noexcept {
   const double margin = skin_ / 8;
   const double needed = position_error({position(), target, kept_}) + 0x1p-50 * kept_;
-  return target != goal_ && needed < margin ? margin : 0;
+  return kept_ > 0 && target != goal_ && needed < margin ? margin : 0;
 }
 
 std::optional<Vec3> ProxyMotion::approach(const Vec3& target, const Impact& impact,
                                           int retreat) const noexcept {
-  constexpr double grazing = 1.0 / 16;
+  constexpr double grazing = 0x1p-40;
   const Vec3 way = target - position();
   const double length = way.norm();
   const Vec3 normal = met_normal(impact, target);

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/oracle/exact/exact_distance.h"
+#include "bench/support/random.h"
 #include "core/float_limits.h"
 #include "tests/bench/oracle/corner_case_triangles.h"
 
@@ -74,6 +75,28 @@ TEST_P(ExactDecision, OfPartsOfAWayIsTheOracles) {
   }
   EXPECT_GT(within, 500U);
   EXPECT_GT(beyond, 20U);
+}
+
+/// On a small grid ways go through corners and edges, end on them, lie in the plane, and triangles have no
+/// area.
+TEST(ExactDecisionOfABarePoint, IsTheOraclesOnASmallGrid) {
+  bench::support::Random random(63);
+  const auto place = [&] {
+    return Vec3(static_cast<double>(random.below(4)), static_cast<double>(random.below(4)),
+                static_cast<double>(random.below(4)));
+  };
+  std::size_t met = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const TriangleCorners triangle{place(), place(), place()};
+    const Vec3 from = place(), to = place();
+    const bool expected = bench::oracle::compare_segment_distance(from, to, triangle, 0) <= 0;
+    ASSERT_EQ(path_within_exactly(triangle, from, to, 1, 0), expected) << "case " << i;
+    ASSERT_EQ(within_exactly(triangle, to, 0), bench::oracle::compare_distance(to, triangle, 0) <= 0);
+    const std::optional<bool> meets = meets_by_sides(triangle, from, to);
+    ASSERT_EQ(meets.value_or(expected), expected) << "case " << i;
+    met += meets == true ? 1 : 0;
+  }
+  EXPECT_GT(met, 1000U);
 }
 
 TEST_P(ExactDecision, IsTheOracles) {

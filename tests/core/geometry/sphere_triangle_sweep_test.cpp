@@ -144,6 +144,37 @@ TEST(SphereTriangleSweep, ABarePointThatSlidesOverAPlaneMeetsItsEndAloneAndTakes
   EXPECT_LE(decisions, 4 * hits);
 }
 
+/// Halving took 46 exact decisions a triangle, and counted one.
+TEST(SphereTriangleSweep, ABarePointOnASmallGridIsToldWhereItMeetsATriangleByAtMostThreeExactDecisions) {
+  std::mt19937_64 random(4);
+  const auto place = [&] {
+    const auto whole = [&] { return static_cast<double>(random() % 4); };
+    const double x = whole(), y = whole();
+    return Vec3(x, y, whole());
+  };
+  int hits = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const PreparedTriangle t = prepare(place(), place(), place(), 0);
+    const Vec3 from = place(), to = place();
+    const Sweep sweep{from, to, 0};
+    const auto order = [&](double fraction) {
+      return bench::oracle::compare_part_distance(from, to, fraction, bench::oracle::Triangle(t.corner), 0);
+    };
+    std::uint64_t decisions = 0;
+    const auto bounds = touch_bounds(t, sweep, 1, decisions);
+    ASSERT_EQ(bounds.has_value(), order(1) <= 0) << i;
+    if (!bounds) continue;
+    const double fraction = touch_fraction(t, sweep, *bounds, decisions);
+    ASSERT_LE(decisions, 3U) << i;
+    ASSERT_EQ(fraction == 0, order(0) == 0) << i;
+    if (fraction == 0) continue;
+    ASSERT_TRUE(order(fraction) >= 0) << i << " is late";
+    ASSERT_TRUE(order(std::min(fraction + max_early, 1.0)) <= 0) << i << " is early";
+    ++hits;
+  }
+  EXPECT_GT(hits, 500);
+}
+
 TEST(SphereTriangleSweep, NotANumberHitsNothing) {
   const double nan = std::nan("");
   EXPECT_FALSE(sweep_hit(triangle, {{nan, 0, 0}, {1, 1, 1}, 1}, 1));
@@ -237,13 +268,16 @@ TEST(SphereTriangleSweep, TheFractionIsNeverLateAndEarlyByLessThanFourUnitsInThe
       return bench::oracle::compare_part_distance(sweep.from, sweep.to, fraction,
                                                   bench::oracle::Triangle(t.corner), sweep.radius);
     };
-    const auto hit = sweep_hit(t, sweep, 1);
-    ASSERT_EQ(hit.has_value(), order(1) <= 0) << trial;
-    if (!hit || *hit == 0) continue;
+    std::uint64_t decisions = 0;
+    const auto bounds = touch_bounds(t, sweep, 1, decisions);
+    ASSERT_EQ(bounds.has_value(), order(1) <= 0) << trial;
+    if (!bounds || bounds->last == 0) continue;
+    const double fraction = touch_fraction(t, sweep, *bounds, decisions);
+    ASSERT_LE(decisions, 5U) << trial;
     ++hits;
     if (rate < 1e-6) ++grazes;
-    ASSERT_FALSE(order(*hit) < 0) << trial << " is late";
-    ASSERT_TRUE(order(std::min(*hit + max_early, 1.0)) <= 0) << trial << " is early";
+    ASSERT_FALSE(order(fraction) < 0) << trial << " is late";
+    ASSERT_TRUE(order(std::min(fraction + max_early, 1.0)) <= 0) << trial << " is early";
   }
   EXPECT_GT(hits, 4000);
   EXPECT_GT(grazes, 500);
