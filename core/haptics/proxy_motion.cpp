@@ -200,9 +200,10 @@ void ProxyMotion::meet(const Impact& impact, const Vec3& target) noexcept {
 }
 
 /// After a slide, so far that what it has come off by stays in sight: on a curve of the ball's own radius, or
-/// off a face for a point.
+/// off a face for a point. Farther off a face, a point goes straight on.
 double ProxyMotion::look() const noexcept {
-  const double off = kept_ > skin_ ? std::min(last_slide_ * last_slide_ / kept_, kept_ / 8) : last_slide_ / 4;
+  const double off = kept_ > skin_ ? std::min(last_slide_ * last_slide_ / kept_, kept_ / 8)
+                                   : std::min(last_slide_ / 4, size_ / 256);
   return kept_ + 4 * skin_ + off;
 }
 
