@@ -76,26 +76,177 @@ void keep_those_for_a_proxy(const contestants::Roster& roster, bool by_name,
   std::erase_if(specs, is_unfit);
 }
 
+workload::Workload workload_for(const ChooseOptions& options, const workload::Selection& selection,
+                                double rate_hz) {
+  const contestants::Selectors& selectors = options.selectors;
+  if (!selectors.scene.empty())
+    return choose::workload_by_time(scene_of(selectors), selection, motions_of(options), rate_hz);
+  const std::string mesh = mesh_of(selectors);
+  return choose::workload_by_time(results::without_directories(mesh),
+                                  meshes::load_mesh(mesh, selectors.normalize), selection,
+                                  motions_of(options), rate_hz);
+}
+
 class ChooseCommand {
  public:
-  ChooseCommand(const ProgramContext& context, const ChooseOptions& options);
+  ChooseCommand(const ProgramContext& context, const ChooseOptions& options)
+      : context_(context),
+        options_(options),
+        deadline_(start_ + checked_minutes(options)),
+        progress_(std::in_place, "choose", start_, deadline_),
+        limits_(checked_limits(options)),
+        selection_(contestants::check(checked_selectors(options), context.roster)),
+        workers_(worker_options(options.workers)),
+        frame_(context, options.out),
+        workload_(workload_for(options, selection_, limits_.rate_hz)) {
+    frame_.description.query = selection_.queries.front();
+    if (options.selectors.detectors.empty())
+      selection_.contestants = options.selectors.scene.empty()
+                                   ? context.roster.candidates(frame_.description.query)
+                                   : context.roster.scene_candidates(frame_.description.query);
+    if (options.proxy)
+      keep_those_for_a_proxy(context.roster, !options.selectors.detectors.empty(), selection_.contestants);
+    frame_.description.seed = selection_.seed;
+    frame_.description.effort = effort_for(options.quick);
+    frame_.description.core = workers_.core = results::core_for_workers();
+  }
 
   /// Returns an exit status. Throws ResourceError, std::invalid_argument or MeshError.
-  int run();
+  int run() {
+    support::watch_for_interrupts(deadline_);
+    progress_.reset();
+    support::StandardOutput out;
+    out.write(choose::asked_text(asked()));
+    out.finish();
+    progress_.emplace("choose", start_, deadline_);
+    measure();
+    if (interrupted_)
+      return interrupted(
+          fmt::format("nothing is recommended by {} of {} motions", rows_.size(), workload_.traces.size()));
+    if (time_is_up_ &&
+        std::ranges::none_of(candidates_, [](const auto& one) { return one.times.has_value(); })) {
+      fmt::print(
+          stderr,
+          "touchmark: nothing is recommended: no candidate was measured within {:g} minutes; allow more "
+          "by --minutes\n",
+          minutes());
+      return support::exit_inconclusive;
+    }
+    return report();
+  }
 
  private:
   choose::Asked asked() const { return {workload_, frame_.description.query, limits_}; }
-  const contestants::ContestantSpec& spec_of(const choose::Candidate& candidate) const;
-  std::string code(const std::vector<std::size_t>& ranked) const;
+  const contestants::ContestantSpec& spec_of(const choose::Candidate& candidate) const {
+    return *std::find_if(
+        selection_.contestants.begin(), selection_.contestants.end(),
+        [&](const contestants::ContestantSpec& spec) { return spec.text() == candidate.contestant(); });
+  }
+
+  /// Returns the recommended one's; where that is no class of the library, also that of the best one that is.
+  std::string code(const std::vector<std::size_t>& ranked) const {
+    std::string text;
+    for (const std::size_t i : ranked) {
+      const contestants::ContestantSpec& spec = spec_of(candidates_[i]);
+      const bool is_class = context_.roster.find(spec.name).library != nullptr;
+      if (text.empty() || is_class)
+        text +=
+            choose::code_for(context_.roster, spec, workload_, {frame_.description.query, options_.proxy});
+      if (is_class || !workload_.scene) break;
+    }
+    return text;
+  }
+
   double minutes() const { return std::chrono::duration<double, std::ratio<60>>(deadline_ - start_).count(); }
-  void measure();
-  void measure_motions(measurement::Comparison& comparison);
+  void measure() {
+    measurement::Comparison comparison(context_.roster, workload_, selection_.contestants, workers_,
+                                       frame_.description.effort, selection_.seed);
+    measure_motions(comparison);
+    progress_.reset();
+    frame_.description.steadiness = comparison.steadiness();
+    candidates_ = choose::candidates_of(rows_);
+    for (const contestants::ContestantSpec& spec : selection_.contestants) {
+      const auto is_it = [&](const choose::Candidate& one) { return one.contestant() == spec.text(); };
+      if (std::ranges::none_of(candidates_, is_it)) unmeasured_.push_back(spec.text());
+    }
+    save(comparison);
+  }
+
+  void measure_motions(measurement::Comparison& comparison) {
+    comparison.set_progress([&](const std::string& motion, const std::string& contestant) {
+      progress_->show(fmt::format("{} of {} motions done; {}: {}", rows_.size(), workload_.traces.size(),
+                                  motion, contestant));
+    });
+    try {
+      while (rows_.size() < workload_.traces.size())
+        rows_.push_back(comparison.run(rows_.size(), frame_.description.query));
+      return;
+    } catch (const support::OutOfTime&) {
+      time_is_up_ = true;
+    } catch (const support::Interrupted&) {
+      interrupted_ = true;
+    }
+    frame_.description.finished = false;
+    whole_motions_ = rows_.size();
+    if (time_is_up_) add_partial_motion(comparison);
+  }
+
   /// Adds what was measured of the motion during which time was up, where no other counts or it is no less.
-  void add_partial_motion(measurement::Comparison& comparison);
-  std::string time_is_up_text() const;
-  void save(const measurement::Comparison& comparison) const;
-  std::string run_json(const measurement::Comparison& comparison) const;
-  int report() const;
+  void add_partial_motion(measurement::Comparison& comparison) {
+    std::vector<measurement::ResultRow> rows = comparison.so_far();
+    std::erase_if(rows, [](const measurement::ResultRow& row) { return row.status == "ok" && !row.cold; });
+    const bool is_no_less = rows.size() == selection_.contestants.size();
+    if (is_no_less || rows_.empty()) rows_.push_back(std::move(rows));
+  }
+
+  std::string time_is_up_text() const {
+    std::size_t samples = std::numeric_limits<std::size_t>::max();
+    for (const choose::Candidate& one : candidates_)
+      if (one.times) samples = std::min(samples, one.times->cold_samples);
+    return fmt::format(
+        "note: the {:g} minutes were up: {} of {} motions were measured, {} in part; {} or more samples with "
+        "all caches emptied for each candidate; not measured: {}; a larger --minutes measures the rest\n",
+        minutes(), rows_.size(), workload_.traces.size(), rows_.size() - whole_motions_, samples,
+        unmeasured_.empty() ? "none" : fmt::format("{}", fmt::join(unmeasured_, ", ")));
+  }
+
+  void save(const measurement::Comparison& comparison) const {
+    if (!frame_.folder) return;
+    std::vector<measurement::ResultRow> rows;
+    for (const std::vector<measurement::ResultRow>& some : rows_)
+      rows.insert(rows.end(), some.begin(), some.end());
+    frame_.folder->write(results::results_csv(frame_.description.run_id, rows), run_json(comparison));
+    if (interrupted_) return;
+    frame_.folder->write_file("choose.csv",
+                              choose::choose_csv(frame_.description.run_id, asked(), candidates_));
+    const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
+    if (!ranked.empty()) frame_.folder->write_file("choose.cpp", code(ranked));
+  }
+
+  std::string run_json(const measurement::Comparison& comparison) const {
+    auto json = nlohmann::ordered_json::parse(
+        results::run_json(frame_.description, workload_, comparison.contestants()));
+    const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
+    json["choose"] = {
+        {"rate_hz", limits_.rate_hz},
+        {"share", limits_.share},
+        {"recommended", !interrupted_ && !ranked.empty() ? candidates_[ranked.front()].contestant() : ""},
+        {"minutes", minutes()},
+        {"not_measured", unmeasured_}};
+    if (limits_.max_bytes) json["choose"]["max_bytes"] = *limits_.max_bytes;
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+  }
+
+  int report() const {
+    support::StandardOutput out;
+    out.write('\n' + choose::candidate_table(asked(), candidates_) + '\n' +
+              choose::recommendation(asked(), candidates_));
+    const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
+    if (!ranked.empty()) out.write('\n' + code(ranked));
+    if (time_is_up_) out.write('\n' + time_is_up_text());
+    if (!ranked.empty()) return support::exit_done;
+    return unmeasured_.empty() ? support::exit_check_failed : support::exit_inconclusive;
+  }
 
   const ProgramContext& context_;
   const ChooseOptions& options_;
@@ -112,169 +263,6 @@ class ChooseCommand {
   std::size_t whole_motions_ = 0;        // where time was up
   std::vector<std::string> unmeasured_;  // contestants
 };
-
-workload::Workload workload_for(const ChooseOptions& options, const workload::Selection& selection,
-                                double rate_hz) {
-  const contestants::Selectors& selectors = options.selectors;
-  if (!selectors.scene.empty())
-    return choose::workload_by_time(scene_of(selectors), selection, motions_of(options), rate_hz);
-  const std::string mesh = mesh_of(selectors);
-  return choose::workload_by_time(results::without_directories(mesh),
-                                  meshes::load_mesh(mesh, selectors.normalize), selection,
-                                  motions_of(options), rate_hz);
-}
-
-ChooseCommand::ChooseCommand(const ProgramContext& context, const ChooseOptions& options)
-    : context_(context),
-      options_(options),
-      deadline_(start_ + checked_minutes(options)),
-      progress_(std::in_place, "choose", start_, deadline_),
-      limits_(checked_limits(options)),
-      selection_(contestants::check(checked_selectors(options), context.roster)),
-      workers_(worker_options(options.workers)),
-      frame_(context, options.out),
-      workload_(workload_for(options, selection_, limits_.rate_hz)) {
-  frame_.description.query = selection_.queries.front();
-  if (options.selectors.detectors.empty())
-    selection_.contestants = options.selectors.scene.empty()
-                                 ? context.roster.candidates(frame_.description.query)
-                                 : context.roster.scene_candidates(frame_.description.query);
-  if (options.proxy)
-    keep_those_for_a_proxy(context.roster, !options.selectors.detectors.empty(), selection_.contestants);
-  frame_.description.seed = selection_.seed;
-  frame_.description.effort = effort_for(options.quick);
-  frame_.description.core = workers_.core = results::core_for_workers();
-}
-
-const contestants::ContestantSpec& ChooseCommand::spec_of(const choose::Candidate& candidate) const {
-  return *std::find_if(
-      selection_.contestants.begin(), selection_.contestants.end(),
-      [&](const contestants::ContestantSpec& spec) { return spec.text() == candidate.contestant(); });
-}
-
-/// Returns the recommended one's; where that is no class of the library, also that of the best one that is.
-std::string ChooseCommand::code(const std::vector<std::size_t>& ranked) const {
-  std::string text;
-  for (const std::size_t i : ranked) {
-    const contestants::ContestantSpec& spec = spec_of(candidates_[i]);
-    const bool is_class = context_.roster.find(spec.name).library != nullptr;
-    if (text.empty() || is_class)
-      text += choose::code_for(context_.roster, spec, workload_, {frame_.description.query, options_.proxy});
-    if (is_class || !workload_.scene) break;
-  }
-  return text;
-}
-
-void ChooseCommand::add_partial_motion(measurement::Comparison& comparison) {
-  std::vector<measurement::ResultRow> rows = comparison.so_far();
-  std::erase_if(rows, [](const measurement::ResultRow& row) { return row.status == "ok" && !row.cold; });
-  const bool is_no_less = rows.size() == selection_.contestants.size();
-  if (is_no_less || rows_.empty()) rows_.push_back(std::move(rows));
-}
-
-void ChooseCommand::measure_motions(measurement::Comparison& comparison) {
-  comparison.set_progress([&](const std::string& motion, const std::string& contestant) {
-    progress_->show(fmt::format("{} of {} motions done; {}: {}", rows_.size(), workload_.traces.size(),
-                                motion, contestant));
-  });
-  try {
-    while (rows_.size() < workload_.traces.size())
-      rows_.push_back(comparison.run(rows_.size(), frame_.description.query));
-    return;
-  } catch (const support::OutOfTime&) {
-    time_is_up_ = true;
-  } catch (const support::Interrupted&) {
-    interrupted_ = true;
-  }
-  frame_.description.finished = false;
-  whole_motions_ = rows_.size();
-  if (time_is_up_) add_partial_motion(comparison);
-}
-
-void ChooseCommand::measure() {
-  measurement::Comparison comparison(context_.roster, workload_, selection_.contestants, workers_,
-                                     frame_.description.effort, selection_.seed);
-  measure_motions(comparison);
-  progress_.reset();
-  frame_.description.steadiness = comparison.steadiness();
-  candidates_ = choose::candidates_of(rows_);
-  for (const contestants::ContestantSpec& spec : selection_.contestants) {
-    const auto is_it = [&](const choose::Candidate& one) { return one.contestant() == spec.text(); };
-    if (std::ranges::none_of(candidates_, is_it)) unmeasured_.push_back(spec.text());
-  }
-  save(comparison);
-}
-
-std::string ChooseCommand::run_json(const measurement::Comparison& comparison) const {
-  auto json = nlohmann::ordered_json::parse(
-      results::run_json(frame_.description, workload_, comparison.contestants()));
-  const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
-  json["choose"] = {
-      {"rate_hz", limits_.rate_hz},
-      {"share", limits_.share},
-      {"recommended", !interrupted_ && !ranked.empty() ? candidates_[ranked.front()].contestant() : ""},
-      {"minutes", minutes()},
-      {"not_measured", unmeasured_}};
-  if (limits_.max_bytes) json["choose"]["max_bytes"] = *limits_.max_bytes;
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
-}
-
-void ChooseCommand::save(const measurement::Comparison& comparison) const {
-  if (!frame_.folder) return;
-  std::vector<measurement::ResultRow> rows;
-  for (const std::vector<measurement::ResultRow>& some : rows_)
-    rows.insert(rows.end(), some.begin(), some.end());
-  frame_.folder->write(results::results_csv(frame_.description.run_id, rows), run_json(comparison));
-  if (interrupted_) return;
-  frame_.folder->write_file("choose.csv",
-                            choose::choose_csv(frame_.description.run_id, asked(), candidates_));
-  const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
-  if (!ranked.empty()) frame_.folder->write_file("choose.cpp", code(ranked));
-}
-
-int ChooseCommand::report() const {
-  support::StandardOutput out;
-  out.write('\n' + choose::candidate_table(asked(), candidates_) + '\n' +
-            choose::recommendation(asked(), candidates_));
-  const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
-  if (!ranked.empty()) out.write('\n' + code(ranked));
-  if (time_is_up_) out.write('\n' + time_is_up_text());
-  if (!ranked.empty()) return support::exit_done;
-  return unmeasured_.empty() ? support::exit_check_failed : support::exit_inconclusive;
-}
-
-std::string ChooseCommand::time_is_up_text() const {
-  std::size_t samples = std::numeric_limits<std::size_t>::max();
-  for (const choose::Candidate& one : candidates_)
-    if (one.times) samples = std::min(samples, one.times->cold_samples);
-  return fmt::format(
-      "note: the {:g} minutes were up: {} of {} motions were measured, {} in part; {} or more samples with "
-      "all caches emptied for each candidate; not measured: {}; a larger --minutes measures the rest\n",
-      minutes(), rows_.size(), workload_.traces.size(), rows_.size() - whole_motions_, samples,
-      unmeasured_.empty() ? "none" : fmt::format("{}", fmt::join(unmeasured_, ", ")));
-}
-
-int ChooseCommand::run() {
-  support::watch_for_interrupts(deadline_);
-  progress_.reset();
-  support::StandardOutput out;
-  out.write(choose::asked_text(asked()));
-  out.finish();
-  progress_.emplace("choose", start_, deadline_);
-  measure();
-  if (interrupted_)
-    return interrupted(
-        fmt::format("nothing is recommended by {} of {} motions", rows_.size(), workload_.traces.size()));
-  if (time_is_up_ &&
-      std::ranges::none_of(candidates_, [](const auto& one) { return one.times.has_value(); })) {
-    fmt::print(stderr,
-               "touchmark: nothing is recommended: no candidate was measured within {:g} minutes; allow more "
-               "by --minutes\n",
-               minutes());
-    return support::exit_inconclusive;
-  }
-  return report();
-}
 
 }  // namespace
 

@@ -87,41 +87,37 @@ class StressCommand {
     frame_.description.seed = run_.request().seed;
   }
 
-  int run();
+  int run() {
+    const bool finished = frame_.finishes(
+        [this] { run_.run([this](const std::string& what) { frame_.progress.show(what); }); });
+    report();
+    if (!finished) return interrupted(run_.scores().size());
+    const std::vector<results::Summary> summaries(run_.scores().begin(), run_.scores().end());
+    return results::status_of(summaries, std::any_of(summaries.begin(), summaries.end(),
+                                                     [](const results::Summary& one) { return one.broken; }));
+  }
 
  private:
-  void report();
+  void report() {
+    const bool finished = frame_.description.finished;
+    const std::string faults = results::list_of_failures(run_.faults(), faults_shown);
+    const support::Table table = stress::stress_table(run_.scores());
+    const std::string legend = stress::stress_legend(run_.scores());
+    support::StandardOutput().write(table.text() + legend + (faults.empty() ? "" : "\n" + faults));
+    if (finished && junit_.wanted())
+      junit_.write(results::junit_xml("touchmark stress", stress::cases_of(run_.scores())));
+    if (markdown_.wanted())
+      markdown_.write(fmt::format("## touchmark stress{}\n\n{}{}{}", finished ? "" : " (interrupted)",
+                                  table.markdown(), code_block(legend), code_block(faults)));
+    if (!frame_.folder) return;
+    frame_.folder->write_file("stress.csv", stress::stress_csv(frame_.description.run_id, run_.scores()));
+    frame_.folder->write_file("run.json", stress::stress_json(frame_.description, run_));
+  }
 
   stress::StressRun run_;
   RunFrame frame_;
   ReportFile junit_, markdown_;
 };
-
-void StressCommand::report() {
-  const bool finished = frame_.description.finished;
-  const std::string faults = results::list_of_failures(run_.faults(), faults_shown);
-  const support::Table table = stress::stress_table(run_.scores());
-  const std::string legend = stress::stress_legend(run_.scores());
-  support::StandardOutput().write(table.text() + legend + (faults.empty() ? "" : "\n" + faults));
-  if (finished && junit_.wanted())
-    junit_.write(results::junit_xml("touchmark stress", stress::cases_of(run_.scores())));
-  if (markdown_.wanted())
-    markdown_.write(fmt::format("## touchmark stress{}\n\n{}{}{}", finished ? "" : " (interrupted)",
-                                table.markdown(), code_block(legend), code_block(faults)));
-  if (!frame_.folder) return;
-  frame_.folder->write_file("stress.csv", stress::stress_csv(frame_.description.run_id, run_.scores()));
-  frame_.folder->write_file("run.json", stress::stress_json(frame_.description, run_));
-}
-
-int StressCommand::run() {
-  const bool finished =
-      frame_.finishes([this] { run_.run([this](const std::string& what) { frame_.progress.show(what); }); });
-  report();
-  if (!finished) return interrupted(run_.scores().size());
-  const std::vector<results::Summary> summaries(run_.scores().begin(), run_.scores().end());
-  return results::status_of(summaries, std::any_of(summaries.begin(), summaries.end(),
-                                                   [](const results::Summary& one) { return one.broken; }));
-}
 
 /// "QUERY/MESH/COURSE/STEP": one answer of the only family, by the only contestant.
 void repeat_one(const StressOptions& options, const contestants::Roster& roster) {

@@ -77,118 +77,110 @@ class ResultsRowCheck : RowCheck {
   }
 
  private:
-  void check_columns() const;
-  void check_order() const;
-  void check_rate() const;
-  void check_mean() const;
-  void check_p999() const;
-  void check_exactness() const;
-  void check_against_run() const;
-  void check_listed(const char* column, const nlohmann::json& list, const char* what) const;
+  void check_columns() const {
+    check_fields(results_columns(), timed_);
+    for (const char* const column : {"judged", "steps"}) {
+      if (is_ok() && field(column) == "0") fault(column, "must be above 0 where the status is ok");
+    }
+  }
+
+  void check_order() const {
+    for (const auto& [low, high] : ascending) {
+      const std::optional<double> less = number(low), more = number(high);
+      if (less && more && *less > *more * (1 + rounding)) {
+        fault(low, fmt::format("is above {} {}", high, field(high)));
+      }
+    }
+  }
+
+  void check_rate() const {
+    const std::optional<double> ns = number("ns_per_query");
+    const std::optional<double> rate = number("update_rate_hz");
+    if (ns && rate && std::abs(*ns * *rate / 1e9 - 1) > 2 * rounding) {
+      fault("update_rate_hz", fmt::format("is not 1e9 / ns_per_query {}", field("ns_per_query")));
+    }
+  }
+
+  /// No mean is above the maximum. The mean is of other passes than the maximum, so that where all steps take
+  /// equally long it may be a little. The elapsed mean holds what interrupted its passes, which the row tells
+  /// by a share that was disturbed or by less processor time.
+  void check_mean() const {
+    constexpr double between_passes = 1.25;
+    const std::optional<double> most = number("ns_max");
+    const std::optional<double> disturbed = number("disturbed_share"), elapsed = number("ns_per_query"),
+                                processor = number("cpu_ns_per_query");
+    const bool took_longer = elapsed && processor && *elapsed > between_passes * *processor;
+    for (const char* const column : {"ns_per_query", "ns_undisturbed"}) {
+      const std::optional<double> mean = number(column);
+      const bool interrupted =
+          column == std::string_view("ns_per_query") && ((disturbed && *disturbed > 0) || took_longer);
+      if (mean && most && !interrupted && *mean > between_passes * *most)
+        fault(column, fmt::format("is above ns_max {}", field("ns_max")));
+    }
+  }
+
+  /// From so many steps on there is a 99.9 %; of fewer it was told only before `ns_undisturbed` was.
+  void check_p999() const {
+    const std::optional<std::uint64_t> steps = support::parse_count(field("steps"));
+    if (!steps || !is_ok()) return;
+    const bool enough = *steps >= measurement::steps_for_p999;
+    if (enough && timed_ && field("ns_p999").empty())
+      fault("ns_p999", "must not be empty from 1,000 steps on");
+    if (!enough && !field("ns_undisturbed").empty() && !field("ns_p999").empty())
+      fault("ns_p999", "must be empty below 1,000 steps");
+  }
+
+  /// Whoever claims exactness and errs is no result to quote.
+  void check_exactness() const {
+    if (field("guarantee") != "exact" || !is_ok()) return;
+    for (const char* const column : {"missed", "false_contacts", "wrong_triangle"}) {
+      const std::optional<std::uint64_t> wrong = support::parse_count(field(column));
+      if (wrong && *wrong > 0) fault(column, "must be 0 where the guarantee is exact");
+    }
+  }
+
+  /// A run.json that is not as it should be has faults of its own, so what is not there is not compared.
+  void check_against_run() const {
+    const auto expect = [&](const char* column, const nlohmann::json& value) {
+      if (!value.is_string() && !value.is_number()) return;
+      const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+      if (field(column) != text) fault(column, fmt::format("is not run.json's {}", text));
+    };
+    expect("run_id", run_->value("run_id", nlohmann::json()));
+    const nlohmann::json queries = run_->value("queries", nlohmann::json());  // where it is of several
+    if (!queries.is_array()) {
+      expect("query", run_->value("query", nlohmann::json()));
+    } else if (std::find(queries.begin(), queries.end(), field("query")) == queries.end()) {
+      fault("query", "is not among run.json's queries");
+    }
+    const nlohmann::json meshes = run_->value("meshes", nlohmann::json());
+    nlohmann::json mesh = run_->value("mesh", nlohmann::json());
+    if (meshes.is_array()) {
+      check_listed("mesh", meshes, "meshes");
+      mesh = nullptr;
+      for (const nlohmann::json& one : meshes) {
+        if (one.is_object() && one.value("name", nlohmann::json()) == field("mesh")) mesh = one;
+      }
+    }
+    if (mesh.is_object()) {
+      expect("mesh", mesh.value("name", nlohmann::json()));
+      expect("triangles", mesh.value("triangles", nlohmann::json()));
+    }
+    check_listed("trajectory", run_->value("trajectories", nlohmann::json()), "trajectories");
+    check_listed("detector", run_->value("contestants", nlohmann::json()), "contestants");
+  }
+
+  void check_listed(const char* column, const nlohmann::json& list, const char* what) const {
+    if (!list.is_array()) return;
+    const bool listed = std::any_of(list.begin(), list.end(), [&](const nlohmann::json& entry) {
+      return entry.is_object() && entry.contains("name") && entry["name"] == field(column);
+    });
+    if (!listed) fault(column, fmt::format("is not among run.json's {}", what));
+  }
 
   bool timed_;
   const nlohmann::json* run_;
 };
-
-void ResultsRowCheck::check_columns() const {
-  check_fields(results_columns(), timed_);
-  for (const char* const column : {"judged", "steps"}) {
-    if (is_ok() && field(column) == "0") fault(column, "must be above 0 where the status is ok");
-  }
-}
-
-void ResultsRowCheck::check_order() const {
-  for (const auto& [low, high] : ascending) {
-    const std::optional<double> less = number(low), more = number(high);
-    if (less && more && *less > *more * (1 + rounding)) {
-      fault(low, fmt::format("is above {} {}", high, field(high)));
-    }
-  }
-}
-
-void ResultsRowCheck::check_rate() const {
-  const std::optional<double> ns = number("ns_per_query");
-  const std::optional<double> rate = number("update_rate_hz");
-  if (ns && rate && std::abs(*ns * *rate / 1e9 - 1) > 2 * rounding) {
-    fault("update_rate_hz", fmt::format("is not 1e9 / ns_per_query {}", field("ns_per_query")));
-  }
-}
-
-/// No mean is above the maximum. The mean is of other passes than the maximum, so that where all steps take
-/// equally long it may be a little. The elapsed mean holds what interrupted its passes, which the row tells
-/// by a share that was disturbed or by less processor time.
-void ResultsRowCheck::check_mean() const {
-  constexpr double between_passes = 1.25;
-  const std::optional<double> most = number("ns_max");
-  const std::optional<double> disturbed = number("disturbed_share"), elapsed = number("ns_per_query"),
-                              processor = number("cpu_ns_per_query");
-  const bool took_longer = elapsed && processor && *elapsed > between_passes * *processor;
-  for (const char* const column : {"ns_per_query", "ns_undisturbed"}) {
-    const std::optional<double> mean = number(column);
-    const bool interrupted =
-        column == std::string_view("ns_per_query") && ((disturbed && *disturbed > 0) || took_longer);
-    if (mean && most && !interrupted && *mean > between_passes * *most)
-      fault(column, fmt::format("is above ns_max {}", field("ns_max")));
-  }
-}
-
-/// From so many steps on there is a 99.9 %; of fewer it was told only before `ns_undisturbed` was.
-void ResultsRowCheck::check_p999() const {
-  const std::optional<std::uint64_t> steps = support::parse_count(field("steps"));
-  if (!steps || !is_ok()) return;
-  const bool enough = *steps >= measurement::steps_for_p999;
-  if (enough && timed_ && field("ns_p999").empty()) fault("ns_p999", "must not be empty from 1,000 steps on");
-  if (!enough && !field("ns_undisturbed").empty() && !field("ns_p999").empty())
-    fault("ns_p999", "must be empty below 1,000 steps");
-}
-
-/// Whoever claims exactness and errs is no result to quote.
-void ResultsRowCheck::check_exactness() const {
-  if (field("guarantee") != "exact" || !is_ok()) return;
-  for (const char* const column : {"missed", "false_contacts", "wrong_triangle"}) {
-    const std::optional<std::uint64_t> wrong = support::parse_count(field(column));
-    if (wrong && *wrong > 0) fault(column, "must be 0 where the guarantee is exact");
-  }
-}
-
-/// A run.json that is not as it should be has faults of its own, so what is not there is not compared.
-void ResultsRowCheck::check_against_run() const {
-  const auto expect = [&](const char* column, const nlohmann::json& value) {
-    if (!value.is_string() && !value.is_number()) return;
-    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-    if (field(column) != text) fault(column, fmt::format("is not run.json's {}", text));
-  };
-  expect("run_id", run_->value("run_id", nlohmann::json()));
-  const nlohmann::json queries = run_->value("queries", nlohmann::json());  // where it is of several
-  if (!queries.is_array()) {
-    expect("query", run_->value("query", nlohmann::json()));
-  } else if (std::find(queries.begin(), queries.end(), field("query")) == queries.end()) {
-    fault("query", "is not among run.json's queries");
-  }
-  const nlohmann::json meshes = run_->value("meshes", nlohmann::json());
-  nlohmann::json mesh = run_->value("mesh", nlohmann::json());
-  if (meshes.is_array()) {
-    check_listed("mesh", meshes, "meshes");
-    mesh = nullptr;
-    for (const nlohmann::json& one : meshes) {
-      if (one.is_object() && one.value("name", nlohmann::json()) == field("mesh")) mesh = one;
-    }
-  }
-  if (mesh.is_object()) {
-    expect("mesh", mesh.value("name", nlohmann::json()));
-    expect("triangles", mesh.value("triangles", nlohmann::json()));
-  }
-  check_listed("trajectory", run_->value("trajectories", nlohmann::json()), "trajectories");
-  check_listed("detector", run_->value("contestants", nlohmann::json()), "contestants");
-}
-
-void ResultsRowCheck::check_listed(const char* column, const nlohmann::json& list, const char* what) const {
-  if (!list.is_array()) return;
-  const bool listed = std::any_of(list.begin(), list.end(), [&](const nlohmann::json& entry) {
-    return entry.is_object() && entry.contains("name") && entry["name"] == field(column);
-  });
-  if (!listed) fault(column, fmt::format("is not among run.json's {}", what));
-}
 
 }  // namespace
 
