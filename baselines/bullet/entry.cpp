@@ -36,10 +36,9 @@ ContestantInfo bullet_entry() {
     return values.text("precision") == "float" ? "touchmark-worker-bullet-float" : default_worker_program;
   };
   const auto options_of = [](const OptionValues& values) -> BulletDetector::Options {
-    if (chosen(values, "precision", precisions) != BulletDetector::precision()) {
+    if (chosen(values, "precision", precisions) != BulletDetector::precision())
       throw std::invalid_argument("bullet: precision=" + values.text("precision") +
                                   " is not the build of Bullet that this program has");
-    }
     return {chosen(values, "method", methods), chosen(values, "frame", frames), asking(values)};
   };
   info.build = [options_of](const TriangleMesh& mesh, const OptionValues& values) {

@@ -22,9 +22,8 @@ const OptionInfo& find_option(const ContestantInfo& contestant, std::string_view
   const auto found = std::find_if(contestant.options.begin(), contestant.options.end(),
                                   [&](const OptionInfo& option) { return option.key == key; });
   if (found != contestant.options.end()) return *found;
-  if (contestant.options.empty()) {
+  if (contestant.options.empty())
     throw std::invalid_argument(fmt::format("{} has no option \"{}\": it takes none", contestant.name, key));
-  }
   std::vector<std::string> keys;
   for (const OptionInfo& option : contestant.options) keys.push_back(option.key);
   throw std::invalid_argument(
@@ -66,9 +65,8 @@ std::map<std::string, std::string> parse_options(const ContestantInfo& contestan
   std::map<std::string, std::string> written;
   for (const std::string_view pair : support::split(text, ',')) {
     const std::size_t equals = pair.find('=');
-    if (equals == std::string_view::npos) {
+    if (equals == std::string_view::npos)
       throw std::invalid_argument(fmt::format("{}: \"{}\" is not key=value", contestant.name, pair));
-    }
     if (former != nullptr && std::ranges::count(former->dead_options, pair.substr(0, equals)) > 0) {
       dead.emplace_back(pair.substr(0, equals));
       continue;
@@ -76,9 +74,8 @@ std::map<std::string, std::string> parse_options(const ContestantInfo& contestan
     const OptionInfo& option = find_option(contestant, pair.substr(0, equals));
     const std::string_view value = pair.substr(equals + 1);
     check_value(contestant, option, value);
-    if (!written.emplace(option.key, value).second) {
+    if (!written.emplace(option.key, value).second)
       throw std::invalid_argument(fmt::format("{}: {} is given twice", contestant.name, option.key));
-    }
   }
   return written;
 }

@@ -49,9 +49,8 @@ LatencySummary summarize_latency(std::span<const double> ns, const std::vector<w
   summary.p99 = percentile(sorted, 0.99);
   summary.p999 = percentile(sorted, 0.999);
   summary.max = sorted.back();
-  for (std::size_t i = 0; i < deadlines_hz.size(); ++i) {
+  for (std::size_t i = 0; i < deadlines_hz.size(); ++i)
     summary.deadlines[i] = count_misses(ns, ranges, 1e9 / deadlines_hz[i]);
-  }
   summary.p999_bounds = bounds(sorted, 0.999);
   return summary;
 }

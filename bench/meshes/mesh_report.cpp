@@ -44,9 +44,8 @@ void measure_triangles(const TriangleMesh& mesh, MeshReport& report) {
 
 std::size_t count_used(const TriangleMesh& mesh, const WeldedMesh& welded) {
   std::vector<bool> used(welded.nodes.size());
-  for (const TriangleMesh::Corners& corners : mesh.triangles()) {
+  for (const TriangleMesh::Corners& corners : mesh.triangles())
     for (const std::uint32_t vertex : corners) used[welded.node_of[vertex]] = true;
-  }
   return static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
 }
 

@@ -92,10 +92,9 @@ class StepsFile {
 
   std::vector<const ResultRow*> rows_of(std::size_t trace) const {
     std::vector<const ResultRow*> rows;
-    for (const ResultRow& row : rows_) {
+    for (const ResultRow& row : rows_)
       if (row.trajectory == workload_.trajectories[trace] && row.log != nullptr && !row.log->ns.empty())
         rows.push_back(&row);
-    }
     return rows;
   }
 
@@ -154,9 +153,8 @@ class StepsFile {
     const std::vector<ground_truth::StepTruth>& truth = truths_[trace];
     Grid grid;
     for (const workload::Step& step : steps) grid.include(step.probe.center);
-    for (const ground_truth::StepTruth& one : truth) {
+    for (const ground_truth::StepTruth& one : truth)
       if (one.known) grid.include(one.point);
-    }
     std::vector<std::uint16_t> positions[3];
     for (const workload::Step& step : steps) grid.append(step.probe.center, positions);
     const std::vector<std::size_t> noted = noted_steps(rows);

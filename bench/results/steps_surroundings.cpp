@@ -28,16 +28,13 @@ std::vector<std::size_t> noted_steps(const std::vector<const measurement::Result
     wishes.push_back(slowest_steps(*row->log, slowest_noted));
     std::vector<std::size_t>& wrong = wishes.emplace_back();
     const std::vector<std::uint8_t>& charged = row->log->charged;
-    for (std::size_t i = 0; i < charged.size() && wrong.size() < wrong_noted; ++i) {
+    for (std::size_t i = 0; i < charged.size() && wrong.size() < wrong_noted; ++i)
       if (charged[i] != 0) wrong.push_back(workload::step_at(row->log->ranges, i));
-    }
   }
   std::set<std::size_t> noted;
-  for (std::size_t turn = 0; turn < std::max(slowest_noted, wrong_noted); ++turn) {
-    for (const std::vector<std::size_t>& wish : wishes) {
+  for (std::size_t turn = 0; turn < std::max(slowest_noted, wrong_noted); ++turn)
+    for (const std::vector<std::size_t>& wish : wishes)
       if (turn < wish.size() && noted.size() < max_noted) noted.insert(wish[turn]);
-    }
-  }
   return {noted.begin(), noted.end()};
 }
 

@@ -54,12 +54,10 @@ double noise(std::uint32_t body, std::uint32_t purpose, double time) {
 Vec3 brownian(std::uint32_t body, std::uint32_t purpose, double time_s) {
   Vec3 sum = Vec3::Zero();
   double frequency = 1, height = 0.1;  // hertz and diagonals
-  for (std::uint32_t octave = 0; octave < 6; ++octave, frequency *= 4, height /= 2) {
-    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+  for (std::uint32_t octave = 0; octave < 6; ++octave, frequency *= 4, height /= 2)
+    for (std::uint32_t axis = 0; axis < 3; ++axis)
       sum[static_cast<Eigen::Index>(axis)] +=
           height * noise(body, purpose + 3 * octave + axis, frequency * time_s);
-    }
-  }
   return sum;
 }
 

@@ -46,9 +46,8 @@ class PoseReader {
   PoseReader(const std::string& path, const BodyScene& scene) : file_(path), numbers_(file_), scene_(scene) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       bodies_.emplace(scene.bodies[i].name, static_cast<std::uint32_t>(i));
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       if (!scene.bodies[i].id.empty()) bodies_.emplace(scene.bodies[i].id, static_cast<std::uint32_t>(i));
-    }
   }
 
   Tracks read() {
@@ -66,10 +65,9 @@ class PoseReader {
       if (found == fields_.end()) throw file_.error(fmt::format("the header has no column {}", columns[i]));
       places_[i] = static_cast<std::size_t>(found - fields_.begin());
     }
-    for (const std::string& field : fields_) {
+    for (const std::string& field : fields_)
       if (std::ranges::find(columns, field) == columns.end())
         throw file_.error("unknown column " + trajectories::shown(field));
-    }
     if (fields_.size() != columns.size()) throw file_.error("the header has a column twice");
   }
 
@@ -88,9 +86,8 @@ class PoseReader {
   }
 
   void add_row() {
-    if (fields_.size() != columns.size()) {
+    if (fields_.size() != columns.size())
       throw file_.error(fmt::format("the row has {} fields, the header {}", fields_.size(), columns.size()));
-    }
     Row row;
     row.time_s = number(time_column);
     for (std::size_t i = 0; i < 3; ++i)
@@ -100,10 +97,9 @@ class PoseReader {
     if (orientation == Quaternion{}) throw file_.error("qw,qx,qy,qz is the quaternion of zeros");
     row.placement.orientation = orientation;
     Track& track = tracks_[body()];
-    if (!track.empty() && !(row.time_s > track.back().time_s)) {
+    if (!track.empty() && !(row.time_s > track.back().time_s))
       throw file_.error(fmt::format("column time_s: {} is not after the row of this body before, {}",
                                     row.time_s, track.back().time_s));
-    }
     track.push_back(row);
   }
 

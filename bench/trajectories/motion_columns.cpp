@@ -225,12 +225,11 @@ class HeaderReader {
   /// Refuses a row that does not name all wanted columns.
   [[noreturn]] void refuse_names(const Row& row) const {
     const std::string text = shown(fmt::format("{}", fmt::join(row.fields, ",")));
-    if (looks_like_data(row)) {
+    if (looks_like_data(row))
       throw file_.error_at(row.line,
                            fmt::format("the first row {} has numbers, and no line above it names {}: "
                                        "--columns x=COL,y=COL,z=COL takes columns by number",
                                        text, fmt::join(wanted_, ", ")));
-    }
     const MotionNames names(file_, row.fields, row.line);
     if (chosen_) {
       (void)chosen_columns(names);

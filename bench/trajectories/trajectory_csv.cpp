@@ -70,10 +70,9 @@ class MotionReader {
         row_.size() > columns_.count &&
         std::all_of(row_.begin() + static_cast<std::ptrdiff_t>(columns_.count), row_.end(),
                     [](const std::string& field) { return trimmed(field).empty(); });
-    if (row_.size() < columns_.min_count || (row_.size() > columns_.count && !rest_is_blank)) {
+    if (row_.size() < columns_.min_count || (row_.size() > columns_.count && !rest_is_blank))
       throw file_.error(fmt::format("the row has {} fields, the {} {}", row_.size(),
                                     columns_.line < first_line_ ? "header" : "first row", columns_.count));
-    }
     return true;
   }
 
@@ -90,10 +89,9 @@ class MotionReader {
     motion_.positions.emplace_back(px, py, pz);
     if (columns_.radius) {
       const double radius = coordinate(*columns_.radius);
-      if (radius < 0) {
+      if (radius < 0)
         throw file_.error("column " + columns_.radius->name + ": " +
                           shown(trimmed(row_[columns_.radius->index])) + " is negative");
-      }
       motion_.radii.push_back(radius);
     }
     if (!columns_.time) return;
@@ -108,10 +106,9 @@ class MotionReader {
   double coordinate(const MotionColumn& column) {
     const std::string& field = row_[column.index];
     const double value = numbers_.read(field, column.name) * options_.scale.value_or(1);
-    if (!std::isfinite(value)) {
+    if (!std::isfinite(value))
       throw file_.error("column " + column.name + ": " + shown(trimmed(field)) +
                         " times --motion-scale is beyond the range of a double");
-    }
     return value;
   }
 
@@ -165,10 +162,9 @@ class MotionReader {
     motion_.recorded = RecordedTiming{times.size(), duration, options_.rate_hz};
     if (options_.rate_hz) {
       const double ticks = ticks_at(motion_, *options_.rate_hz);
-      if (max_ == 0 && ticks > max_ticks) {
+      if (max_ == 0 && ticks > max_ticks)
         throw std::invalid_argument(fmt::format("{}: {} s at --rate {} are {:.0f} steps, more than {:.0f}",
                                                 motion_.name, duration, *options_.rate_hz, ticks, max_ticks));
-      }
       const double steps = max_ == 0 ? ticks : std::min(ticks, static_cast<double>(max_));
       support::require_memory(fmt::format("trajectory {}: {:.0f} steps", motion_.name, steps),
                               bytes_a_tick * steps);

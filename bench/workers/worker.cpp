@@ -214,9 +214,8 @@ class Worker {
     geometry_.reset();  // detectors hold copies of what they need
     built.bytes = contestant_->bytes();
     built.accuracy = contestant_->accuracy();
-    for (const workload::Query query : workload::queries_of_scenes) {
+    for (const workload::Query query : workload::queries_of_scenes)
       if (contestant_->answers(query)) built.queries.push_back(query);
-    }
     built.prepares = contestant_->prepares();
     built.builds_lazily = contestant_->builds_lazily();
     return built;
@@ -273,9 +272,8 @@ void tell_broken(const std::string& why) noexcept {
 
 void serve(Worker worker, LineChannel channel) {
   std::string line;
-  while (channel.receive(line, std::nullopt, [] {}) == LineChannel::Outcome::line) {
+  while (channel.receive(line, std::nullopt, [] {}) == LineChannel::Outcome::line)
     if (!channel.send(line_of(worker.dispatch(request_in(line))))) return;
-  }
 }
 
 }  // namespace

@@ -205,9 +205,8 @@ TEST(Bullet, FollowsVerticesThatMove) {
   const TriangleMesh mesh = bumps(12), other = moved(mesh);
   for (const BulletDetector::Options& form : std::vector<BulletDetector::Options>{
            {BulletDetector::Method::callback, BulletDetector::Frame::mesh},
-           {BulletDetector::Method::callback, BulletDetector::Frame::fitted}}) {
+           {BulletDetector::Method::callback, BulletDetector::Frame::fitted}})
     expect_to_follow<BulletDetector>(mesh, other, form);
-  }
 }
 
 TEST_P(EveryBullet, AskingTheBoxAndTheLastTriangleFirstChangesNoAnswer) {

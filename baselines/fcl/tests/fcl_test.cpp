@@ -211,9 +211,8 @@ TEST(Fcl, FollowsVerticesThatMove) {
            {FclDetector::Volume::aabb, FclDetector::Method::distance, FclDetector::Narrow::exact},
            {FclDetector::Volume::aabb, FclDetector::Method::traverse, FclDetector::Narrow::exact},
            {FclDetector::Volume::kios, FclDetector::Method::traverse, FclDetector::Narrow::exact},
-           {FclDetector::Volume::obbrss, FclDetector::Method::distance, FclDetector::Narrow::exact}}) {
+           {FclDetector::Volume::obbrss, FclDetector::Method::distance, FclDetector::Narrow::exact}})
     expect_to_follow<FclDetector>(mesh, other, form);
-  }
 }
 
 TEST_P(EveryFcl, AskingTheBoxAndTheLastTriangleFirstChangesNoAnswer) {

@@ -142,11 +142,9 @@ class BenchRun {
   }
 
   void list_cases() {
-    for (const std::string& trajectory : workload_.trajectories) {
-      for (const contestants::ContestantSpec& spec : selection_.contestants) {
+    for (const std::string& trajectory : workload_.trajectories)
+      for (const contestants::ContestantSpec& spec : selection_.contestants)
         if (wanted(trajectory, spec.text())) out_.write(fmt::format("{}/{}\n", spec.text(), trajectory));
-      }
-    }
   }
 
  private:
@@ -211,10 +209,9 @@ class BenchRun {
 
   std::size_t wanted_rows() const {
     std::size_t rows = 0;
-    for (const std::string& trajectory : workload_.trajectories) {
+    for (const std::string& trajectory : workload_.trajectories)
       for (const contestants::ContestantSpec& spec : selection_.contestants)
         rows += wanted(trajectory, spec.text()) ? 1 : 0;
-    }
     return rows;
   }
 

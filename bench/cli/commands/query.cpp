@@ -70,14 +70,12 @@ class RowSink {
 };
 
 void check_there_is_one(const contestants::Selectors& selectors) {
-  if (selectors.detectors.size() != 1) {
+  if (selectors.detectors.size() != 1)
     throw std::invalid_argument(
         fmt::format("query needs exactly one --detector; {} given", selectors.detectors.size()));
-  }
-  if (selectors.trajectories.size() > 1) {
+  if (selectors.trajectories.size() > 1)
     throw std::invalid_argument(
         fmt::format("query follows one --trajectory; {} given", selectors.trajectories.size()));
-  }
 }
 
 /// A whole trajectory takes a slow contestant its time; there is Ctrl-C, and --timeout where nobody watches.

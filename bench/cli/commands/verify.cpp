@@ -52,9 +52,8 @@ std::vector<std::string> meshes_for(const VerifyOptions& options) {
   std::vector<std::string> meshes;
   for (const meshes::NamedMesh& named : meshes::named_meshes()) {
     if (named.example.empty()) continue;
-    for (const char* modifier : {"", "@offset=1e6", "@scale=1e-6", "@scale=1e6"}) {
+    for (const char* modifier : {"", "@offset=1e6", "@scale=1e-6", "@scale=1e6"})
       meshes.push_back(named.example + modifier);
-    }
   }
   return meshes;
 }

@@ -184,10 +184,9 @@ class SuiteRun {
 
   /// The cells of a mesh that was not begun.
   void add_unmeasured(const suite::SuiteMesh& planned, const std::string& mesh) {
-    for (const suite::SuiteCell& cell : planned.cells) {
+    for (const suite::SuiteCell& cell : planned.cells)
       std::ranges::move(suite::score({mesh, 0, cell, {}}, ours(), [](const std::string&) { return true; }),
                         std::back_inserter(scored_));
-    }
   }
 
   void save(bool finished) const {
@@ -203,10 +202,9 @@ class SuiteRun {
     auto trajectories = nlohmann::ordered_json::array();
     for (const std::string& run : runs_) {
       const auto parsed = nlohmann::ordered_json::parse(run);
-      for (const auto& one : parsed.at("trajectories")) {
+      for (const auto& one : parsed.at("trajectories"))
         if (std::find(trajectories.begin(), trajectories.end(), one) == trajectories.end())
           trajectories.push_back(one);
-      }
     }
     json["trajectories"] = trajectories;
     json["queries"] = {"touches", "nearest", "sweep"};

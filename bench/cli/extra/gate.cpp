@@ -50,9 +50,8 @@ gate::Baseline baseline_for(const GateOptions& options) {
 contestants::CheckedSelectors checked(const GateOptions& options, const contestants::Roster& roster) {
   if (options.selectors.detectors.empty())
     throw std::invalid_argument("--detector is missing: what is gated?");
-  if (options.rounds < 5 || options.rounds > 1000) {
+  if (options.rounds < 5 || options.rounds > 1000)
     throw std::invalid_argument(fmt::format("--rounds \"{}\" is not from 5 to 1000", options.rounds));
-  }
   return contestants::check(options.selectors, roster);
 }
 
@@ -98,10 +97,9 @@ class Gate {
       return support::exit_check_failed;
     }
     report();
-    if (status_ == support::exit_inconclusive) {
+    if (status_ == support::exit_inconclusive)
       fmt::print(stderr, "touchmark: inconclusive: {} did not measure equal to itself within {}\n",
                  reference_.text(), options_.tolerance);
-    }
     if (options_.write_baseline && status_ == support::exit_done) {
       support::AtomicFile file(options_.baseline);
       file.write(baseline_.csv());
@@ -113,11 +111,9 @@ class Gate {
  private:
   std::vector<gate::GatePair> pairs() const {
     std::vector<gate::GatePair> pairs;
-    for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
-      for (const contestants::ContestantSpec& detector : selection_.contestants) {
+    for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace)
+      for (const contestants::ContestantSpec& detector : selection_.contestants)
         pairs.push_back({detector, reference_, trace, selection_.queries.front()});
-      }
-    }
     return pairs;
   }
 
@@ -129,11 +125,10 @@ class Gate {
   const gate::BaselineRow& expected(const gate::GatePair& pair) const {
     const gate::GateKey key = key_of(pair);
     const gate::BaselineRow* const row = baseline_.find(key);
-    if (row == nullptr) {
+    if (row == nullptr)
       throw std::invalid_argument(
           fmt::format("{}: no row for {} against {} on {}, {}, {} (--write-baseline adds it)",
                       options_.baseline, key.detector, key.reference, key.mesh, key.trajectory, key.query));
-    }
     expect_same_content(*row, pair);
     return *row;
   }
@@ -216,9 +211,8 @@ class Gate {
   /// Less work for the same answers is no fault.
   std::string compare_answers(const gate::BaselineRow& row, const gate::GateAnswers& answers) const {
     if (row.checksum && *row.checksum != answers.checksum) return "answers differ";
-    if (row.work && (answers.work.mean > row.work->mean || answers.work.max > row.work->max)) {
+    if (row.work && (answers.work.mean > row.work->mean || answers.work.max > row.work->max))
       return fmt::format("more work: {:.6g} a step, was {:.6g}", answers.work.mean, row.work->mean);
-    }
     return row.checksum || row.work ? "same" : "-";
   }
 

@@ -37,9 +37,8 @@ std::vector<workload::Query> checked_queries(const std::vector<std::string>& nam
   std::vector<workload::Query> queries;
   for (const std::string& name : names) {
     const std::optional<workload::Query> query = workload::query_named(name);
-    if ((!query && name != "all") || query == workload::Query::moving) {
+    if ((!query && name != "all") || query == workload::Query::moving)
       throw support::bad_value("--query", name, "one of touches, nearest, sweep, all");
-    }
     if (query) queries.push_back(*query);
     if (name == "all")
       queries.insert(queries.end(), workload::all_queries.begin(), workload::all_queries.end());

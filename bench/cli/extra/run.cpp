@@ -42,9 +42,7 @@ Shard checked_shard(const std::string& text) {
   const std::size_t slash = std::min(text.find('/'), text.size() - 1);
   const std::uint64_t which = support::parse_count(text.substr(0, slash)).value_or(0);
   const std::uint64_t count = support::parse_count(text.substr(slash + 1)).value_or(0);
-  if (which < 1 || which > count) {
-    throw support::bad_value("--shard", text, "i/N, i from 1 to N");
-  }
+  if (which < 1 || which > count) throw support::bad_value("--shard", text, "i/N, i from 1 to N");
   return {which, count};
 }
 
@@ -64,19 +62,17 @@ class BatchRun {
         effort_(batch::effort_named(manifest_.effort)),
         frame_(context, "") {
     frame_.folder.emplace(options.out);  // which also refuses an empty name
-    if (manifest_.version != results::build_info().version) {
+    if (manifest_.version != results::build_info().version)
       throw std::invalid_argument(fmt::format("{}: planned by version {}, this is {}: plan it anew",
                                               options.manifest, manifest_.version,
                                               results::build_info().version));
-    }
     load_planned_plugins(context);
   }
 
   int run() {
     const bool finished = frame_.finishes([this] {
-      for (std::size_t index = 0; index < manifest_.meshes.size(); ++index) {
+      for (std::size_t index = 0; index < manifest_.meshes.size(); ++index)
         if (shard_.has(index)) run_mesh(manifest_.meshes[index]);
-      }
     });
     fmt::print(stderr, "touchmark: {}shard {}: {} jobs done, {} were finished before\n",
                finished ? "" : "interrupted; ", options_.shard, done_, skipped_);
@@ -130,10 +126,9 @@ class BatchRun {
     std::vector<contestants::ContestantSpec> missing;
     for (const batch::BatchJob& job : planned.jobs) {
       contestants::ContestantSpec spec = context_.roster.parse(job.detector);
-      if (batch::job_id(planned, batch::identity_of(spec), manifest_.effort, manifest_.version) != job.id) {
+      if (batch::job_id(planned, batch::identity_of(spec), manifest_.effort, manifest_.version) != job.id)
         throw std::invalid_argument(
             fmt::format("{}: job {} does not have the id of what it describes", options_.manifest, job.id));
-      }
       if (!batch::is_finished(options_.out, job.id)) missing.push_back(std::move(spec));
     }
     return missing;

@@ -81,10 +81,9 @@ class ScaleRun {
         workers_(worker_options(options.workers)),
         frame_(context, options.out) {
     // A name that is wrong should not be found out after the smaller meshes.
-    for (const std::string& mesh : meshes_) {
+    for (const std::string& mesh : meshes_)
       if (!scaling::comes_in_sizes(scaling::family_of(mesh)))
         meshes::load_mesh(mesh, options.selectors.normalize);
-    }
     if (options.workers.timeout.empty()) workers_.build_timeout = default_build_timeout;
     frame_.description.query = selection_.queries.front();
     frame_.description.seed = selection_.seed;
@@ -177,14 +176,12 @@ class ScaleRun {
       too_much_.try_emplace(contestant,
                             TooMuch{row.triangles, fmt::format("skipped: {} on {}", why, row.mesh)});
     };
-    for (const measurement::ResultRow& row : rows) {
+    for (const measurement::ResultRow& row : rows)
       if (row.status != "ok" && row.status != "unsupported" && !row.status.starts_with("skipped"))
         note(row.contestant(), row.status);
-    }
-    for (const workers::ContestantProcess& process : comparison.contestants()) {
+    for (const workers::ContestantProcess& process : comparison.contestants())
       if (process.busy_s() > limit_s_)
         note(process.spec().text(), fmt::format("took {:.3g} s", process.busy_s()));
-    }
   }
 
   /// All at once while there is room, so that times of one mesh compare as those of `touchmark bench` do.

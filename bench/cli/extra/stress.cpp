@@ -123,27 +123,23 @@ class StressCommand {
 void repeat_one(const StressOptions& options, const contestants::Roster& roster) {
   support::restore_denormals();
   const stress::StressRequest request = request_of(options, roster);
-  if (options.families.size() != 1 || options.selectors.detectors.size() != 1) {
+  if (options.families.size() != 1 || options.selectors.detectors.size() != 1)
     throw std::invalid_argument("--repeat needs exactly one --family and one --detector");
-  }
   std::istringstream text(options.repeat);
   std::vector<std::string> parts;
   for (std::string part; std::getline(text, part, '/');) parts.push_back(part);
   const std::optional<workload::Query> query =
       parts.size() == 4 ? workload::query_named(parts[0]) : std::nullopt;
   std::vector<std::uint64_t> indices;
-  for (std::size_t i = 1; query && i < parts.size(); ++i) {
+  for (std::size_t i = 1; query && i < parts.size(); ++i)
     if (const auto index = support::parse_count(parts[i])) indices.push_back(*index);
-  }
-  if (indices.size() != 3) {
+  if (indices.size() != 3)
     throw support::bad_value("--repeat", options.repeat, "QUERY/MESH/COURSE/STEP, as nearest/0/0/17");
-  }
   const std::vector<workload::Workload> workloads =
       request.families.front()->make(request.seed, request.probes);
-  if (indices[0] >= workloads.size() || indices[1] >= workloads[indices[0]].traces.size()) {
+  if (indices[0] >= workloads.size() || indices[1] >= workloads[indices[0]].traces.size())
     throw std::invalid_argument(
         fmt::format("--repeat \"{}\" names a mesh or course that is not", options.repeat));
-  }
   const workers::Task task{indices[1], *query, workloads[indices[0]].traces[indices[1]].size()};
   support::StandardOutput().write(rows_of_step(roster, workloads[indices[0]], request.workers,
                                                request.contestants.front(), task, indices[2],

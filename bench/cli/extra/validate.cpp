@@ -56,9 +56,8 @@ std::vector<std::string> files_below(const std::string& folder) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
       const fs::path& path = entry.path();
       if (entry.is_regular_file() && (path.extension() == ".csv" || path.filename() == "run.json" ||
-                                      path.filename() == "steps.bin" || is_visits(path))) {
+                                      path.filename() == "steps.bin" || is_visits(path)))
         files.push_back(path.string());
-      }
     }
   } catch (const fs::filesystem_error& error) {
     throw std::invalid_argument(fmt::format("{}: {}", folder, error.code().message()));

@@ -45,10 +45,9 @@ const touchmark_plugin& described_by(const std::string& path) {
   const auto entry = reinterpret_cast<touchmark_plugin_entry_function>(symbol);
   const touchmark_plugin* const plugin = entry();
   if (plugin == nullptr) refuse(fmt::format("{} returns NULL", entry_symbol));
-  if (plugin->version < 1 || plugin->version > TOUCHMARK_PLUGIN_VERSION) {
+  if (plugin->version < 1 || plugin->version > TOUCHMARK_PLUGIN_VERSION)
     refuse(fmt::format("it is of version {} of touchmark/contestant.h; this program knows version {}",
                        plugin->version, TOUCHMARK_PLUGIN_VERSION));
-  }
   return *plugin;
 }
 

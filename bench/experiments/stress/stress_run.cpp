@@ -63,10 +63,9 @@ void StressRun::run_round(const Family& family, std::uint64_t seed, std::size_t 
     return;
   }
   ++counts_[&family].rounds;
-  for (std::size_t workload_index = 0; workload_index < workloads.size(); ++workload_index) {
+  for (std::size_t workload_index = 0; workload_index < workloads.size(); ++workload_index)
     if (!workloads[workload_index].traces.empty())
       run_workload(family, seed, probes, workload_index, workloads[workload_index], progress);
-  }
 }
 
 void StressRun::run_workload(const Family& family, std::uint64_t seed, std::size_t probes,
@@ -93,9 +92,8 @@ void StressRun::run_workload(const Family& family, std::uint64_t seed, std::size
   }
   keep();
   for (const std::vector<workload::Step>& trace : workload.traces) counts_[&family].probes += trace.size();
-  for (std::size_t i = 0; i < request_.contestants.size(); ++i) {
+  for (std::size_t i = 0; i < request_.contestants.size(); ++i)
     if (comparison.contestants()[i].opened().flushed_to_zero) flushed_to_zero_[i] = true;
-  }
 }
 
 /// There is no mesh to give to any of them.

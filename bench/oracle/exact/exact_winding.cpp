@@ -31,10 +31,9 @@ Direction draw(support::Random& random) {
 }
 
 bool may_contain(const Triangle& t, const Vec3& p) {
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 3; ++k)
     if (p[k] < std::min({t[0][k], t[1][k], t[2][k]}) || p[k] > std::max({t[0][k], t[1][k], t[2][k]}))
       return false;
-  }
   return true;
 }
 

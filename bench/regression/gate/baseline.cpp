@@ -102,16 +102,13 @@ Baseline Baseline::read(const std::string& path) {
   support::CsvReader reader(path);
   std::vector<std::string> header, fields;
   reader.next(header);
-  for (std::size_t i = 0; i < needed_columns; ++i) {
-    if (std::find(header.begin(), header.end(), columns[i]) == header.end()) {
+  for (std::size_t i = 0; i < needed_columns; ++i)
+    if (std::find(header.begin(), header.end(), columns[i]) == header.end())
       throw reader.error(fmt::format("the header has no column {}", columns[i]));
-    }
-  }
   Baseline baseline;
   while (reader.next(fields)) {
-    if (fields.size() != header.size()) {
+    if (fields.size() != header.size())
       throw reader.error(fmt::format("the line has {} fields, the header {}", fields.size(), header.size()));
-    }
     baseline.rows_.push_back(row_of({reader, header, fields}));
   }
   return baseline;

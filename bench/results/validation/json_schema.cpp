@@ -22,10 +22,9 @@ struct Location {
 void check(const Json& schema, const Location& location, std::vector<SchemaFault>& faults);
 
 bool has_type(const Json& value, std::string_view type) {
-  if (type == "integer") {
+  if (type == "integer")
     return value.is_number_integer() ||
            (value.is_number_float() && value.get<double>() == std::trunc(value.get<double>()));
-  }
   return (type == "object" && value.is_object()) || (type == "array" && value.is_array()) ||
          (type == "string" && value.is_string()) || (type == "number" && value.is_number()) ||
          (type == "boolean" && value.is_boolean()) || (type == "null" && value.is_null());
@@ -46,9 +45,8 @@ std::string child(const Location& location, const std::string& key) { return loc
 
 void check_members(const Json& schemas, const Location& location, std::vector<SchemaFault>& faults) {
   if (!location.value.is_object()) return;
-  for (const auto& [key, member] : location.value.items()) {
+  for (const auto& [key, member] : location.value.items())
     if (schemas.contains(key)) check(schemas[key], {child(location, key), member}, faults);
-  }
 }
 
 void check_required(const Json& keys, const Location& location, std::vector<SchemaFault>& faults) {
@@ -68,9 +66,8 @@ void check_every_member(const Json& schema, const Location& location, std::vecto
 
 void check_items(const Json& schema, const Location& location, std::vector<SchemaFault>& faults) {
   if (!location.value.is_array()) return;
-  for (std::size_t i = 0; i < location.value.size(); ++i) {
+  for (std::size_t i = 0; i < location.value.size(); ++i)
     check(schema, {child(location, std::to_string(i)), location.value[i]}, faults);
-  }
 }
 
 void check_pattern(const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
@@ -78,9 +75,8 @@ void check_pattern(const Json& keyword, const Location& location, std::vector<Sc
   constexpr std::size_t longest = 4096;  // the library's matcher recurs once a character
   const auto& pattern = keyword.get_ref<const std::string&>();
   const auto& text = location.value.get_ref<const std::string&>();
-  if (text.size() > longest || !std::regex_search(text, std::regex(pattern))) {
+  if (text.size() > longest || !std::regex_search(text, std::regex(pattern)))
     fail(location, fmt::format("does not match {}", pattern), faults);
-  }
 }
 
 void check_any_of(const Json& schemas, const Location& location, std::vector<SchemaFault>& faults) {
@@ -93,17 +89,15 @@ void check_any_of(const Json& schemas, const Location& location, std::vector<Sch
 }
 
 void check_type(const Json& types, const Location& location, std::vector<SchemaFault>& faults) {
-  if (!has_type(location.value, types.get<std::string>())) {
+  if (!has_type(location.value, types.get<std::string>()))
     fail(location, fmt::format("is not of type {}", types.get<std::string>()), faults);
-  }
 }
 
 void check_size(const Json& limit, const Location& location, std::vector<SchemaFault>& faults, bool least) {
   if (!location.value.is_array()) return;
   const std::size_t size = location.value.size(), bound = limit.get<std::size_t>();
-  if (least ? size < bound : size > bound) {
+  if (least ? size < bound : size > bound)
     fail(location, fmt::format("has {} items, not at {} {}", size, least ? "least" : "most", bound), faults);
-  }
 }
 
 using Check = void (*)(const Json& keyword, const Location& location, std::vector<SchemaFault>& faults);
@@ -138,15 +132,13 @@ constexpr std::array keywords{
             }},
     Keyword{"minimum",
             [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (location.value.is_number() && location.value < keyword) {
+              if (location.value.is_number() && location.value < keyword)
                 fail(location, fmt::format("is below {}", keyword.dump()), faults);
-              }
             }},
     Keyword{"maximum",
             [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (location.value.is_number() && location.value > keyword) {
+              if (location.value.is_number() && location.value > keyword)
                 fail(location, fmt::format("is above {}", keyword.dump()), faults);
-              }
             }},
     Keyword{"minItems",
             [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
@@ -167,9 +159,8 @@ const Keyword* keyword_named(const std::string& name) {
 }
 
 void check(const Json& schema, const Location& location, std::vector<SchemaFault>& faults) {
-  for (const auto& [name, value] : schema.items()) {
+  for (const auto& [name, value] : schema.items())
     if (const Keyword* const keyword = keyword_named(name)) keyword->check(value, location, faults);
-  }
 }
 
 /// Throws for what check() would pass over.
@@ -183,9 +174,8 @@ void expect_known_keywords(const Json& schema) {
       for (const Json& within : value) expect_known_keywords(within);
     }
   }
-  if (schema.contains("properties") && schema.contains("additionalProperties")) {
+  if (schema.contains("properties") && schema.contains("additionalProperties"))
     throw std::logic_error("properties and additionalProperties of one schema");
-  }
 }
 
 }  // namespace
@@ -199,10 +189,9 @@ std::vector<SchemaFault> JsonSchema::check(const nlohmann::json& document) const
 }
 
 void JsonSchema::check(const std::string& path, const LocatedJson& document, Faults& faults) const {
-  for (const SchemaFault& fault : check(document.value)) {
+  for (const SchemaFault& fault : check(document.value))
     faults.push_back({path, document.line_of(fault.pointer), fault.pointer.empty() ? "/" : fault.pointer,
                       fault.value, fault.wrong});
-  }
 }
 
 }  // namespace touchmark::bench::results::validation

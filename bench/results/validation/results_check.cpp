@@ -79,26 +79,23 @@ class ResultsRowCheck : RowCheck {
  private:
   void check_columns() const {
     check_fields(results_columns(), timed_);
-    for (const char* const column : {"judged", "steps"}) {
+    for (const char* const column : {"judged", "steps"})
       if (is_ok() && field(column) == "0") fault(column, "must be above 0 where the status is ok");
-    }
   }
 
   void check_order() const {
     for (const auto& [low, high] : ascending) {
       const std::optional<double> less = number(low), more = number(high);
-      if (less && more && *less > *more * (1 + rounding)) {
+      if (less && more && *less > *more * (1 + rounding))
         fault(low, fmt::format("is above {} {}", high, field(high)));
-      }
     }
   }
 
   void check_rate() const {
     const std::optional<double> ns = number("ns_per_query");
     const std::optional<double> rate = number("update_rate_hz");
-    if (ns && rate && std::abs(*ns * *rate / 1e9 - 1) > 2 * rounding) {
+    if (ns && rate && std::abs(*ns * *rate / 1e9 - 1) > 2 * rounding)
       fault("update_rate_hz", fmt::format("is not 1e9 / ns_per_query {}", field("ns_per_query")));
-    }
   }
 
   /// No mean is above the maximum. The mean is of other passes than the maximum, so that where all steps take
@@ -158,9 +155,8 @@ class ResultsRowCheck : RowCheck {
     if (meshes.is_array()) {
       check_listed("mesh", meshes, "meshes");
       mesh = nullptr;
-      for (const nlohmann::json& one : meshes) {
+      for (const nlohmann::json& one : meshes)
         if (one.is_object() && one.value("name", nlohmann::json()) == field("mesh")) mesh = one;
-      }
     }
     if (mesh.is_object()) {
       expect("mesh", mesh.value("name", nlohmann::json()));

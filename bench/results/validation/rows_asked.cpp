@@ -33,9 +33,8 @@ std::string what(const CsvTable& table, const CsvRecord& row) {
 std::vector<std::string> texts(const Json& list) {
   std::vector<std::string> result;
   if (!list.is_array()) return result;
-  for (const Json& one : list) {
+  for (const Json& one : list)
     if (one.is_string()) result.push_back(one.get<std::string>());
-  }
   return result;
 }
 
@@ -101,10 +100,9 @@ void check_missing(const CsvTable& table, const Json& run, Faults& faults) {
   if (!asked.is_object() || member(run, "finished") != true) return;
   const std::map<std::string, std::size_t> named = times_asked(run);
   std::map<std::string, std::size_t> found;
-  for (const CsvRecord& row : table.records) {
+  for (const CsvRecord& row : table.records)
     ++found[key_of({asked_as(table, row, named), table.field(row, "mesh"), table.field(row, "trajectory"),
                     table.field(row, "query")})];
-  }
   std::vector<std::string> meshes = names_of(member(run, "meshes"));
   if (meshes.empty()) meshes = names_of(Json::array({member(run, "mesh")}));
   for (const std::string& mesh : meshes) {

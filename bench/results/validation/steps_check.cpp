@@ -122,9 +122,8 @@ class StepsCheck {
     if (found != expected) throw Damage{name, fmt::format("has {} items in place of {}", found, expected)};
   }
   static void expect_below(const char* name, const std::vector<std::uint32_t>& items, std::size_t limit) {
-    for (const std::uint32_t item : items) {
+    for (const std::uint32_t item : items)
       if (item >= limit) throw Damage{name, fmt::format("names {} of {}", item, limit)};
-    }
   }
 
   void check_mesh(const Json& mesh) {

@@ -71,9 +71,8 @@ std::optional<std::string_view> comment_in(std::string_view line) noexcept {
   const std::size_t first = line.find_first_not_of(" \t");
   if (first == line.npos) return std::nullopt;
   line.remove_prefix(first);
-  for (const std::string_view mark : {"#", "%", "//"}) {
+  for (const std::string_view mark : {"#", "%", "//"})
     if (line.starts_with(mark)) return line.substr(mark.size());
-  }
   return std::nullopt;
 }
 

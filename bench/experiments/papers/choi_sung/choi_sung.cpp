@@ -74,10 +74,9 @@ class Experiment {
   ChoiSungResult run() {
     try {
       measure_surface("original", 0, original_);
-      for (const SubdivisionMethod method : choi_sung_methods) {
+      for (const SubdivisionMethod method : choi_sung_methods)
         for (int level = 1; level <= settings_.levels; ++level)
           measure_surface(name_of(method), level, choi_sung_surface(original_, method, level));
-      }
       if (settings_.timed)
         timing_.run(settings_.effort, [this](std::size_t round, std::size_t) {
           print_progress_(fmt::format("timing, round {} of {}", round + 1, settings_.effort.rounds));
@@ -161,9 +160,8 @@ class Experiment {
 
   void check_answers(const Numbers& numbers) {
     const std::uint64_t expected = timing_.timed(numbers.scan).answers;
-    for (const auto& other : {numbers.tree, numbers.grid}) {
+    for (const auto& other : {numbers.tree, numbers.grid})
       if (other && timing_.timed(*other).answers != expected) result_.answers_agree = false;
-    }
   }
 
   void fill_times(ChoiSungRow& row, const Numbers& numbers) const {

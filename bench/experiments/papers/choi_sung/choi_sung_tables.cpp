@@ -134,19 +134,17 @@ support::Table choi_sung_table1_short(const ChoiSungResult& result) {
 support::Table choi_sung_distances(const ChoiSungResult& result) {
   support::Table table(
       {"mesh", "method", "level", "clustering", "spheres", "tests_per_query", "detection_ms", "mean_error"});
-  for (const DistanceRow& row : result.distances) {
+  for (const DistanceRow& row : result.distances)
     table.add({row.mesh, row.method, std::to_string(row.level), number(row.clustering),
                std::to_string(row.spheres), fmt::format("{:.1f}", row.tests_per_query),
                row.ns ? milliseconds(*row.ns) : "", row.mean_error ? number(*row.mean_error) : ""});
-  }
   return table;
 }
 
 support::Table choi_sung_models(const ChoiSungResult& result) {
   support::Table table({"model", "triangles", "where", "what", "holds", "reproduced"});
-  for (const ModelVerdict& m : result.models) {
+  for (const ModelVerdict& m : result.models)
     table.add({m.model, std::to_string(m.triangles), m.where, m.what, m.holds ? "yes" : "no", m.reproduced});
-  }
   return table;
 }
 
@@ -154,10 +152,9 @@ support::Table choi_sung_table2(const ChoiSungResult& result) {
   support::Table table({"method", "appearance", "volume_equality", "tightness", "detection_time",
                         "update_rate", "total", "creases", "closeness"});
   const auto score = [](double value) { return fmt::format("{:.2f}", value); };
-  for (const MethodScores& s : choi_sung_scores(result)) {
+  for (const MethodScores& s : choi_sung_scores(result))
     table.add({std::string(name_of(s.method)), score(s.appearance), score(s.volume), score(s.tightness),
                score(s.detection), score(s.update), score(s.total()), score(s.creases), score(s.closeness)});
-  }
   return table;
 }
 

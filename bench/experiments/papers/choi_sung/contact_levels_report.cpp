@@ -14,10 +14,9 @@ constexpr double held_part = 0.99;
 /// The least error of the rows of this form that hold the rate.
 const ContactLevelRow* best_at(const ContactLevelResult& result, const char* form, double hz) {
   const ContactLevelRow* best = nullptr;
-  for (const ContactLevelRow& row : result.rows) {
+  for (const ContactLevelRow& row : result.rows)
     if (row.form == form && row.rate_hz >= hz && (best == nullptr || row.mean_error < best->mean_error))
       best = &row;
-  }
   return best;
 }
 

@@ -168,9 +168,8 @@ std::vector<std::size_t> park_jang_group_counts(std::size_t most) {
   std::vector<std::size_t> counts;
   for (const std::size_t count :
        {1,   2,   4,   8,   16,  24,  32,   45,   61,   80,   100,  130,  160,   214,   300,
-        379, 460, 550, 650, 783, 950, 1100, 1550, 2115, 3000, 4500, 7000, 12000, 20000, 35000}) {
+        379, 460, 550, 650, 783, 950, 1100, 1550, 2115, 3000, 4500, 7000, 12000, 20000, 35000})
     if (count <= most) counts.push_back(count);
-  }
   return counts;
 }
 

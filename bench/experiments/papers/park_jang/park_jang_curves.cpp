@@ -49,14 +49,12 @@ ParkJangCurve curve_of(const Rows& rows, double ungrouped) {
   curve.shape = rows[0]->form;
   curve.best = rows[least]->groups;
   curve.factor = min_operations > 0 ? ungrouped / min_operations : 0;
-  for (std::size_t i = least; i > 0 && !curve.tenth_from && min_operations <= ungrouped / 10; --i) {
+  for (std::size_t i = least; i > 0 && !curve.tenth_from && min_operations <= ungrouped / 10; --i)
     if (mean_operations(*rows[i - 1]) > ungrouped / 10)
       curve.tenth_from = groups_at(*rows[i - 1], *rows[i], ungrouped / 10);
-  }
-  for (std::size_t i = least; i + 1 < rows.size() && !curve.rises_from; ++i) {
+  for (std::size_t i = least; i + 1 < rows.size() && !curve.rises_from; ++i)
     if (mean_operations(*rows[i + 1]) > 1.1 * min_operations)
       curve.rises_from = groups_at(*rows[i], *rows[i + 1], 1.1 * min_operations);
-  }
   fill_places(rows, curve);
   return curve;
 }

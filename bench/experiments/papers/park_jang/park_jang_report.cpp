@@ -94,13 +94,12 @@ std::string fast_verdict(const ParkJangResult& result) {
   const std::vector<ParkJangBest> all = park_jang_best(result);
   for (const ParkJangRow& row : result.rows) {
     if (row.form != "direct" || !row.timed || row.timed->ns <= 0) continue;
-    for (const ParkJangBest& best : all) {
+    for (const ParkJangBest& best : all)
       if (best.mesh == row.mesh && best.shape == "cube")
         text += fmt::format(
             "- {}: {:.0f} times as fast as the published form at its best count, {:.0f} times as fast as the "
             "ungrouped one.\n",
             row.mesh, best.ns / row.timed->ns, best.ungrouped_ns / row.timed->ns);
-    }
   }
   return text;
 }
