@@ -106,7 +106,7 @@ std::vector<FoundJob> in_order(std::vector<FoundJob> jobs, const std::optional<M
     expect_all_of(positions, jobs);
   }
   const auto position_of = [&](const FoundJob& job) { return manifest ? positions.at(job.result.id) : 0; };
-  std::sort(jobs.begin(), jobs.end(), [&](const FoundJob& a, const FoundJob& b) {
+  std::ranges::sort(jobs, [&](const FoundJob& a, const FoundJob& b) {
     return std::pair(position_of(a), sorting_key(a)) < std::pair(position_of(b), sorting_key(b));
   });
   const auto same = [](const FoundJob& a, const FoundJob& b) {

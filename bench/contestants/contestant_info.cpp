@@ -68,7 +68,7 @@ double OptionValues::length(const std::string& key, const TriangleMesh& mesh) co
 }
 
 bool ContestantInfo::answers(workload::Query query) const noexcept {
-  return std::find(queries.begin(), queries.end(), query) != queries.end();
+  return std::ranges::find(queries, query) != queries.end();
 }
 
 }  // namespace touchmark::bench::contestants

@@ -102,7 +102,7 @@ class MergedScene {
   }
 
   BodyContact owned(Contact contact) const noexcept {
-    const auto after = std::upper_bound(first_.begin(), first_.end(), contact.triangle);
+    const auto after = std::ranges::upper_bound(first_, contact.triangle);
     const auto body = static_cast<std::uint32_t>(after - first_.begin() - 1);
     contact.triangle = ids_[contact.triangle];
     return {{body, 0}, contact};

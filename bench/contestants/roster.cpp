@@ -19,8 +19,8 @@ namespace touchmark::bench::contestants {
 namespace {
 
 const OptionInfo& find_option(const ContestantInfo& contestant, std::string_view key) {
-  const auto found = std::find_if(contestant.options.begin(), contestant.options.end(),
-                                  [&](const OptionInfo& option) { return option.key == key; });
+  const auto found =
+      std::ranges::find_if(contestant.options, [&](const OptionInfo& option) { return option.key == key; });
   if (found != contestant.options.end()) return *found;
   if (contestant.options.empty())
     throw std::invalid_argument(fmt::format("{} has no option \"{}\": it takes none", contestant.name, key));
@@ -34,7 +34,7 @@ const OptionInfo& find_option(const ContestantInfo& contestant, std::string_view
 std::string complaint(const OptionInfo& option, std::string_view value) {
   switch (option.kind) {
     case OptionKind::choice:
-      if (std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end()) return "";
+      if (std::ranges::find(option.choices, value) != option.choices.end()) return "";
       return fmt::format("none of {}", fmt::join(option.choices, ", "));
     case OptionKind::number:
       return support::parse_number(value).value_or(-1) >= 0 ? "" : "not a number of 0 or more";
@@ -102,7 +102,7 @@ void Roster::add(ContestantInfo contestant) {
 }
 
 const ContestantInfo& Roster::find(const std::string& name) const {
-  const auto found = std::find_if(contestants_.begin(), contestants_.end(), [&](const ContestantInfo& info) {
+  const auto found = std::ranges::find_if(contestants_, [&](const ContestantInfo& info) {
     return info.name == name || former_name(info, name) != nullptr;
   });
   if (found != contestants_.end()) return *found;

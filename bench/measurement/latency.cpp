@@ -42,7 +42,7 @@ DeadlineMisses count_misses(std::span<const double> ns, const std::vector<worklo
 
 LatencySummary summarize_latency(std::span<const double> ns, const std::vector<workload::StepRange>& ranges) {
   std::vector<double> sorted(ns.begin(), ns.end());
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   LatencySummary summary;
   summary.p50 = percentile(sorted, 0.5);
   summary.p90 = percentile(sorted, 0.9);
@@ -57,7 +57,7 @@ LatencySummary summarize_latency(std::span<const double> ns, const std::vector<w
 
 ColdSummary summarize_cold(std::span<const double> ns) {
   std::vector<double> sorted(ns.begin(), ns.end());
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   return {sorted.size(), percentile(sorted, 0.5), percentile(sorted, 0.99), percentile(sorted, 0.999),
           sorted.back(), bounds(sorted, 0.5),     bounds(sorted, 0.99)};
 }

@@ -28,8 +28,7 @@ struct SceneOracle::Structure {
     return {triangle_of(*shapes[seen.shape], number - first[body]), &seen.pose, seen.radius};
   }
   std::uint32_t body_of(std::uint32_t number) const {
-    return static_cast<std::uint32_t>(std::upper_bound(first.begin(), first.end(), number) - first.begin() -
-                                      1);
+    return static_cast<std::uint32_t>(std::ranges::upper_bound(first, number) - first.begin() - 1);
   }
 
   /// Calls visit(number) for every triangle that the segment may come within `limit` of, which may shrink
@@ -97,7 +96,7 @@ struct SceneOracle::Structure {
     std::vector<std::uint32_t> numbers;
     for (const Candidate& candidate : found)
       if (candidate.lo <= limit) numbers.push_back(candidate.number);
-    std::sort(numbers.begin(), numbers.end());
+    std::ranges::sort(numbers);
     return numbers;
   }
 
@@ -188,7 +187,7 @@ std::vector<std::uint32_t> SceneOracle::all_within(const Vec3& center, double ra
   structure_->near(center, center, radius, [&](std::uint32_t number) {
     if (within(number, center, radius)) found.push_back(number);
   });
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 

@@ -46,7 +46,7 @@ bool is_word(std::string_view field) {
   constexpr std::array<std::string_view, 8> missing = {"NA",   "N/A",  "na",   "n/a",
                                                        "NULL", "null", "None", "none"};
   return support::has_words(field) && !support::is_number(field, ' ') &&
-         std::find(missing.begin(), missing.end(), trimmed(field)) == missing.end();
+         std::ranges::find(missing, trimmed(field)) == missing.end();
 }
 
 class HeaderReader {
@@ -89,7 +89,7 @@ class HeaderReader {
     };
     std::optional<MotionColumns> columns;
     if (!chosen_) columns = names.usual_columns();
-    if (chosen_ && std::all_of(choices_.begin(), choices_.end(), has)) columns = chosen_columns(names);
+    if (chosen_ && std::ranges::all_of(choices_, has)) columns = chosen_columns(names);
     if (!columns) return columns;
     columns->min_count = count_of(fields);
     columns->count = fields.size();
@@ -119,7 +119,7 @@ class HeaderReader {
       const std::size_t number = std::get<std::size_t>(choice);
       return number <= row.fields.size() && is_number(row.fields[number - 1]);
     };
-    if (!std::all_of(choices_.begin(), choices_.end(), has_number)) return std::nullopt;
+    if (!std::ranges::all_of(choices_, has_number)) return std::nullopt;
     std::vector<Row> headers = names_in_comments(row.fields);
     if (headers.empty() && !above_.empty()) headers.push_back(above_.back());
     const Fields names = headers.empty() ? Fields() : headers.front().fields;
@@ -144,7 +144,7 @@ class HeaderReader {
   /// Takes the first two columns as times if they hold whole seconds from 1990 to 2100 and nanoseconds.
   void guess_times(MotionColumns& columns, const Fields& row) const {
     const auto is_position = [](const MotionColumn& column) { return column.index < 2; };
-    if (std::any_of(columns.position.begin(), columns.position.end(), is_position)) return;
+    if (std::ranges::any_of(columns.position, is_position)) return;
     const auto seconds = support::parse_count(trimmed(row[0])), rest = support::parse_count(trimmed(row[1]));
     if (!seconds || decimals_of_date(static_cast<double>(*seconds)) != 0) return;
     if (!rest || *rest >= 1'000'000'000) return;
@@ -195,12 +195,12 @@ class HeaderReader {
     if (above_.empty()) throw file_.error("the file is empty: it needs a header that names x, y and z");
     const auto names_in = [&](const Row& row) {
       const MotionNames names(file_, row.fields, row.line);
-      return std::count_if(wanted_.begin(), wanted_.end(),
-                           [&](const std::string& name) { return names.find(name).has_value(); });
+      return std::ranges::count_if(wanted_,
+                                   [&](const std::string& name) { return names.find(name).has_value(); });
     };
     if (!wanted_.empty())
-      refuse_names(*std::max_element(above_.begin(), above_.end(),
-                                     [&](const Row& a, const Row& b) { return names_in(a) < names_in(b); }));
+      refuse_names(*std::ranges::max_element(
+          above_, [&](const Row& a, const Row& b) { return names_in(a) < names_in(b); }));
     for (const Row& row : above_)
       if (looks_like_data(row)) refuse_numbers(row);
     throw file_.error_at(above_.back().line, "no row follows the header");
@@ -235,8 +235,8 @@ class HeaderReader {
       (void)chosen_columns(names);
       refuse_numbers(row);
     }
-    const auto missing = std::find_if(wanted_.begin(), wanted_.end(),
-                                      [&](const std::string& name) { return !names.find(name); });
+    const auto missing =
+        std::ranges::find_if(wanted_, [&](const std::string& name) { return !names.find(name); });
     const std::string what = missing == wanted_.end() ? "" : " has no column " + *missing;
     throw file_.error_at(row.line, fmt::format("the header {}{}: {}", text, what, must_name));
   }

@@ -44,8 +44,7 @@ void say_that_rows_are_steps(const trajectories::Trajectory& trajectory) {
 
 void expect_a_motion_file(const std::vector<std::string>& trajectories,
                           const trajectories::MotionOptions& options) {
-  if (options.are_given() &&
-      std::all_of(trajectories.begin(), trajectories.end(), &trajectories::is_generated))
+  if (options.are_given() && std::ranges::all_of(trajectories, &trajectories::is_generated))
     throw std::invalid_argument(
         fmt::format("{} is of motion files, and no --trajectory is one", options.columns   ? "--columns"
                                                                          : options.rate_hz ? "--rate"

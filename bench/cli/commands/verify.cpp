@@ -130,7 +130,7 @@ class VerifyRun {
                                   table.markdown(), judged, code_block(failures)));
     if (frame_.folder) frame_.folder->write(results::results_csv(frame_.description.run_id, rows_));
     if (!finished) return interrupted(rows_.size());
-    return results::status_of(rows_, std::any_of(rows_.begin(), rows_.end(), results::claim_is_broken));
+    return results::status_of(rows_, std::ranges::any_of(rows_, results::claim_is_broken));
   }
 
   const contestants::Roster& roster_;

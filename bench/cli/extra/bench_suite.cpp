@@ -203,8 +203,7 @@ class SuiteRun {
     for (const std::string& run : runs_) {
       const auto parsed = nlohmann::ordered_json::parse(run);
       for (const auto& one : parsed.at("trajectories"))
-        if (std::find(trajectories.begin(), trajectories.end(), one) == trajectories.end())
-          trajectories.push_back(one);
+        if (std::ranges::find(trajectories, one) == trajectories.end()) trajectories.push_back(one);
     }
     json["trajectories"] = trajectories;
     json["queries"] = {"touches", "nearest", "sweep"};

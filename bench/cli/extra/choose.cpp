@@ -138,9 +138,9 @@ class ChooseCommand {
  private:
   choose::Asked asked() const { return {workload_, frame_.description.query, limits_}; }
   const contestants::ContestantSpec& spec_of(const choose::Candidate& candidate) const {
-    return *std::find_if(
-        selection_.contestants.begin(), selection_.contestants.end(),
-        [&](const contestants::ContestantSpec& spec) { return spec.text() == candidate.contestant(); });
+    return *std::ranges::find_if(selection_.contestants, [&](const contestants::ContestantSpec& spec) {
+      return spec.text() == candidate.contestant();
+    });
   }
 
   /// Returns the recommended one's; where that is no class of the library, also that of the best one that is.

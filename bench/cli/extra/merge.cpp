@@ -43,7 +43,7 @@ std::vector<batch::FoundJob> jobs_of(const std::vector<std::string>& folders) {
       throw std::invalid_argument(fmt::format("{}: {}", folder, error.code().message()));
     }
     if (paths.empty()) throw std::invalid_argument(fmt::format("{}: no finished job in it", folder));
-    std::sort(paths.begin(), paths.end());
+    std::ranges::sort(paths);
     for (const std::string& path : paths) jobs.push_back(batch::found_job(path));
   }
   return jobs;

@@ -93,8 +93,8 @@ class StressCommand {
     report();
     if (!finished) return interrupted(run_.scores().size());
     const std::vector<results::Summary> summaries(run_.scores().begin(), run_.scores().end());
-    return results::status_of(summaries, std::any_of(summaries.begin(), summaries.end(),
-                                                     [](const results::Summary& one) { return one.broken; }));
+    return results::status_of(
+        summaries, std::ranges::any_of(summaries, [](const results::Summary& one) { return one.broken; }));
   }
 
  private:

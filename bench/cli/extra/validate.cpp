@@ -64,7 +64,7 @@ std::vector<std::string> files_below(const std::string& folder) {
   }
   if (files.empty())
     throw std::invalid_argument(fmt::format("{}: no CSV file and no run.json in it", folder));
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 

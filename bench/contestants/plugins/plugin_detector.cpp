@@ -15,7 +15,7 @@ class ErrorText {
   char* data() noexcept { return text_.data(); }
   std::size_t size() const noexcept { return text_.size(); }
   std::string or_else(const char* otherwise) const {
-    std::string text(text_.begin(), std::find(text_.begin(), text_.end(), '\0'));
+    std::string text(text_.begin(), std::ranges::find(text_, '\0'));
     std::replace_if(
         text.begin(), text.end(), [](unsigned char letter) { return letter < ' '; }, ' ');
     return text.empty() ? otherwise : text;

@@ -84,7 +84,7 @@ std::string candidate_table(const Asked& asked, const std::vector<Candidate>& ca
   const std::vector<std::size_t> ranked = ranking(candidates, asked.limits);
   for (const std::size_t i : ranked) table.add(cells_of(asked, candidates[i]));
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (std::find(ranked.begin(), ranked.end(), i) == ranked.end()) table.add(cells_of(asked, candidates[i]));
+    if (std::ranges::find(ranked, i) == ranked.end()) table.add(cells_of(asked, candidates[i]));
   return table.text();
 }
 

@@ -145,7 +145,7 @@ void mark_best(std::vector<FrontierPoint>& points, const std::function<bool(cons
     point.best = false;
     if (point.ns && among(point)) compared.push_back(&point);
   }
-  std::sort(compared.begin(), compared.end(), [](const FrontierPoint* a, const FrontierPoint* b) {
+  std::ranges::sort(compared, [](const FrontierPoint* a, const FrontierPoint* b) {
     return a->ns != b->ns ? a->ns < b->ns : a->error.mean < b->error.mean;
   });
   double least = std::numeric_limits<double>::infinity();

@@ -16,13 +16,13 @@ std::string error(const Score& score) {
   return score.counts.judged > 0 ? fmt::format("{}", score.counts.*Member) : "";
 }
 
-constexpr results::Kind standing{
-    [](std::string_view text) {
-      constexpr std::array standings{"ok",    "unsupported", "refused", "inexact",
-                                     "wrong", "timeout",     "crashed"};
-      return std::find(standings.begin(), standings.end(), text) != standings.end();
-    },
-    "one of ok, unsupported, refused, inexact, wrong, timeout, crashed"};
+constexpr results::Kind standing{[](std::string_view text) {
+                                   constexpr std::array standings{"ok",      "unsupported", "refused",
+                                                                  "inexact", "wrong",       "timeout",
+                                                                  "crashed"};
+                                   return std::ranges::find(standings, text) != standings.end();
+                                 },
+                                 "one of ok, unsupported, refused, inexact, wrong, timeout, crashed"};
 
 using E = oracle::ErrorCounts;
 using S = const Score&;

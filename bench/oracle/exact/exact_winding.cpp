@@ -110,7 +110,7 @@ bool is_closed(std::span<const Triangle> triangles) {
       if (b < a) --balance[{b, a}];
     }
   }
-  return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
+  return std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
 }
 
 /// About the first corner; a closed surface has the same volume about any point.

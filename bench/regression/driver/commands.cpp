@@ -60,7 +60,7 @@ std::vector<Group> timed_groups(const std::vector<std::string>& only, Workloads&
   std::vector<Group> groups;
   std::size_t found = 0;
   for (const Case& asked : cases()) {
-    const bool wanted = only.empty() || std::find(only.begin(), only.end(), asked.name()) != only.end();
+    const bool wanted = only.empty() || std::ranges::find(only, asked.name()) != only.end();
     if (!asked.timed || !wanted) continue;
     ++found;
     if (!workloads.available(asked)) continue;

@@ -46,9 +46,8 @@ std::uint64_t fingerprint(const Workload& workload) {
 bool Workloads::available(const Case& asked) {
   if (!asked.needs_file()) return true;
   const std::vector<meshes::NamedMesh> known = meshes::named_meshes();
-  return std::any_of(known.begin(), known.end(), [&](const meshes::NamedMesh& info) {
-    return info.name == asked.mesh && info.available;
-  });
+  return std::ranges::any_of(
+      known, [&](const meshes::NamedMesh& info) { return info.name == asked.mesh && info.available; });
 }
 
 const Workloads::LoadedMesh& Workloads::mesh(const std::string& name) {

@@ -43,7 +43,7 @@ class PairedBatches::Contender {
  public:
   void build() {
     const workers::Built& built = attempt([&] { return process_.build(); });
-    if (std::find(built.queries.begin(), built.queries.end(), task_.query) == built.queries.end())
+    if (std::ranges::find(built.queries, task_.query) == built.queries.end())
       fail("does not answer this query");
     accuracy_ = built.accuracy;
   }

@@ -10,11 +10,11 @@
 namespace touchmark::bench::results::validation {
 
 bool CsvTable::has(const std::string& column) const {
-  return std::find(header.begin(), header.end(), column) != header.end();
+  return std::ranges::find(header, column) != header.end();
 }
 
 std::string CsvTable::field(const CsvRecord& record, const std::string& column) const {
-  const auto at = static_cast<std::size_t>(std::find(header.begin(), header.end(), column) - header.begin());
+  const auto at = static_cast<std::size_t>(std::ranges::find(header, column) - header.begin());
   return at < header.size() && at < record.fields.size() ? record.fields[at] : "";
 }
 

@@ -121,7 +121,7 @@ constexpr std::array keywords{
             }},
     Keyword{"enum",
             [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (std::find(keyword.begin(), keyword.end(), location.value) != keyword.end()) return;
+              if (std::ranges::find(keyword, location.value) != keyword.end()) return;
               fail(location, fmt::format("is none of {}", keyword.dump()), faults);
             }},
     Keyword{"minLength",
@@ -153,8 +153,8 @@ constexpr std::array keywords{
 constexpr std::array notes{"$schema", "$id", "title", "description"};
 
 const Keyword* keyword_named(const std::string& name) {
-  const auto* const found = std::find_if(keywords.begin(), keywords.end(),
-                                         [&](const Keyword& keyword) { return keyword.name == name; });
+  const auto* const found =
+      std::ranges::find_if(keywords, [&](const Keyword& keyword) { return keyword.name == name; });
   return found == keywords.end() ? nullptr : &*found;
 }
 
@@ -167,7 +167,7 @@ void check(const Json& schema, const Location& location, std::vector<SchemaFault
 void expect_known_keywords(const Json& schema) {
   if (!schema.is_object()) throw std::logic_error("a schema is not an object: " + schema.dump());
   for (const auto& [name, value] : schema.items()) {
-    const bool is_note = std::find(notes.begin(), notes.end(), name) != notes.end();
+    const bool is_note = std::ranges::find(notes, name) != notes.end();
     if (!is_note && keyword_named(name) == nullptr) throw std::logic_error("unknown schema keyword " + name);
     if (name == "items" || name == "additionalProperties") expect_known_keywords(value);
     if (name == "properties" || name == "anyOf") {

@@ -147,7 +147,7 @@ class ResultsRowCheck : RowCheck {
     const nlohmann::json queries = run_->value("queries", nlohmann::json());  // where it is of several
     if (!queries.is_array()) {
       expect("query", run_->value("query", nlohmann::json()));
-    } else if (std::find(queries.begin(), queries.end(), field("query")) == queries.end()) {
+    } else if (std::ranges::find(queries, field("query")) == queries.end()) {
       fault("query", "is not among run.json's queries");
     }
     const nlohmann::json meshes = run_->value("meshes", nlohmann::json());
@@ -168,7 +168,7 @@ class ResultsRowCheck : RowCheck {
 
   void check_listed(const char* column, const nlohmann::json& list, const char* what) const {
     if (!list.is_array()) return;
-    const bool listed = std::any_of(list.begin(), list.end(), [&](const nlohmann::json& entry) {
+    const bool listed = std::ranges::any_of(list, [&](const nlohmann::json& entry) {
       return entry.is_object() && entry.contains("name") && entry["name"] == field(column);
     });
     if (!listed) fault(column, fmt::format("is not among run.json's {}", what));
@@ -181,10 +181,9 @@ class ResultsRowCheck : RowCheck {
 }  // namespace
 
 void check_results(const CsvTable& table, const nlohmann::json* run, Faults& faults) {
-  const bool timed =
-      run != nullptr || std::any_of(table.records.begin(), table.records.end(), [&](const auto& row) {
-        return is_ok(table, row) && !table.field(row, "ns_per_query").empty();
-      });
+  const bool timed = run != nullptr || std::ranges::any_of(table.records, [&](const auto& row) {
+                       return is_ok(table, row) && !table.field(row, "ns_per_query").empty();
+                     });
   const auto check = [&](const RowCheck& row) { ResultsRowCheck(row, timed, run).check(); };
   if (!check_rows(table, results_columns(), columns_of_the_contract, faults, check)) return;
   check_rows_asked(table, run, faults);

@@ -90,7 +90,7 @@ void check_twice(const CsvTable& table, const Json* run, Faults& faults) {
 
 bool is_left_out(const Json& asked, const std::string& trajectory, const std::string& contestant) {
   const Json list = member(asked, "left_out");
-  return list.is_array() && std::any_of(list.begin(), list.end(), [&](const Json& one) {
+  return list.is_array() && std::ranges::any_of(list, [&](const Json& one) {
            return member(one, "trajectory") == trajectory && member(one, "contestant") == contestant;
          });
 }

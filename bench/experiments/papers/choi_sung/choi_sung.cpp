@@ -152,10 +152,9 @@ class Experiment {
   std::size_t contacts_of_original_path(const TriangleMesh& mesh) const {
     const SphereCluster tree = SphereCluster::build(mesh);
     SphereCluster::Session session;
-    return static_cast<std::size_t>(
-        std::count_if(original_path_.begin(), original_path_.end(), [&](const workload::Step& step) {
-          return tree.nearest(step.probe, step.reach, session).has_value();
-        }));
+    return static_cast<std::size_t>(std::ranges::count_if(original_path_, [&](const workload::Step& step) {
+      return tree.nearest(step.probe, step.reach, session).has_value();
+    }));
   }
 
   void check_answers(const Numbers& numbers) {
@@ -200,7 +199,7 @@ ChoiSungResult run_choi_sung(const TriangleMesh& original, const ChoiSungSetting
 
 const ChoiSungRow* find_row(const ChoiSungResult& result, SubdivisionMethod method, int level,
                             bool clustered) {
-  const auto found = std::find_if(result.rows.begin(), result.rows.end(), [&](const ChoiSungRow& row) {
+  const auto found = std::ranges::find_if(result.rows, [&](const ChoiSungRow& row) {
     return row.surface.level == level && (row.clustering > 0) == clustered &&
            (level == 0 || row.surface.method == name_of(method));
   });

@@ -104,8 +104,8 @@ std::string frontier_section(const PaperMesh& mesh, const FrontierResult& fronti
     FrontierResult chosen = frontier;
     mark_best(chosen.points, among);
     std::erase_if(chosen.points, [](const FrontierPoint& point) { return !point.best; });
-    std::sort(chosen.points.begin(), chosen.points.end(),
-              [](const FrontierPoint& a, const FrontierPoint& b) { return a.ns < b.ns; });
+    std::ranges::sort(chosen.points,
+                      [](const FrontierPoint& a, const FrontierPoint& b) { return a.ns < b.ns; });
     return frontier_table(chosen, mesh.mesh.diagonal()).markdown();
   };
   std::string text = fmt::format(

@@ -29,6 +29,28 @@ std::string reduction(double without, double with) {
   return without > 0 && with > 0 ? fmt::format("{:.1f}", 100 * (1 - with / without)) : "";
 }
 
+/// A column of the short table: its text, and whether less is better.
+struct ShortColumn {
+  std::string name;
+  std::function<double(const ChoiSungRow& single, const ChoiSungRow& clustered)> value;
+  bool less_is_better;
+};
+
+std::vector<ShortColumn> short_columns() {
+  using Row = ChoiSungRow;
+  const auto us = [](const Row& row) { return ns_of(row.scan) * 1e-3; };
+  const auto rate = [](const Row& row) { return row.scan && row.scan->ns > 0 ? 1e9 / row.scan->ns : 0; };
+  return {
+      {"triangles", [](const Row& a, const Row&) { return static_cast<double>(a.surface.triangles); }, true},
+      {"mean area", [](const Row& a, const Row&) { return a.surface.mean_area; }, true},
+      {"spheres", [](const Row& a, const Row&) { return static_cast<double>(a.spheres); }, true},
+      {"clustered", [](const Row&, const Row& b) { return static_cast<double>(b.spheres); }, true},
+      {"us", [us](const Row& a, const Row&) { return us(a); }, true},
+      {"us, clustered", [us](const Row&, const Row& b) { return us(b); }, true},
+      {"Hz", [rate](const Row& a, const Row&) { return rate(a); }, false},
+      {"Hz, clustered", [rate](const Row&, const Row& b) { return rate(b); }, false}};
+}
+
 }  // namespace
 
 support::Table choi_sung_table1(const ChoiSungResult& result) {
@@ -76,32 +98,6 @@ support::Table choi_sung_table1(const ChoiSungResult& result) {
   });
   return results::table_of(columns, result.rows);
 }
-
-namespace {
-
-/// A column of the short table: its text, and whether less is better.
-struct ShortColumn {
-  std::string name;
-  std::function<double(const ChoiSungRow& single, const ChoiSungRow& clustered)> value;
-  bool less_is_better;
-};
-
-std::vector<ShortColumn> short_columns() {
-  using Row = ChoiSungRow;
-  const auto us = [](const Row& row) { return ns_of(row.scan) * 1e-3; };
-  const auto rate = [](const Row& row) { return row.scan && row.scan->ns > 0 ? 1e9 / row.scan->ns : 0; };
-  return {
-      {"triangles", [](const Row& a, const Row&) { return static_cast<double>(a.surface.triangles); }, true},
-      {"mean area", [](const Row& a, const Row&) { return a.surface.mean_area; }, true},
-      {"spheres", [](const Row& a, const Row&) { return static_cast<double>(a.spheres); }, true},
-      {"clustered", [](const Row&, const Row& b) { return static_cast<double>(b.spheres); }, true},
-      {"us", [us](const Row& a, const Row&) { return us(a); }, true},
-      {"us, clustered", [us](const Row&, const Row& b) { return us(b); }, true},
-      {"Hz", [rate](const Row& a, const Row&) { return rate(a); }, false},
-      {"Hz, clustered", [rate](const Row&, const Row& b) { return rate(b); }, false}};
-}
-
-}  // namespace
 
 support::Table choi_sung_table1_short(const ChoiSungResult& result) {
   const std::vector<ShortColumn> columns = short_columns();

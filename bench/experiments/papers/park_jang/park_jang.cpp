@@ -110,7 +110,7 @@ class MeshExperiment {
     return rows;
   }
   bool answers_agree() const {
-    return std::all_of(rows_.begin(), rows_.end(), [this](const ParkJangRow& row) {
+    return std::ranges::all_of(rows_, [this](const ParkJangRow& row) {
       return row.counted.answers == rows_.front().counted.answers;
     });
   }
@@ -160,7 +160,7 @@ class MeshExperiment {
 double place_quantile(const CountedTests& counted, double part) {
   if (counted.by_place.empty()) return counted.mean;
   std::vector<double> sorted = counted.by_place;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   return sorted[static_cast<std::size_t>(std::lround(part * static_cast<double>(sorted.size() - 1)))];
 }
 

@@ -22,8 +22,8 @@ double groups_at(const ParkJangRow& a, const ParkJangRow& b, double operations) 
 }
 
 std::size_t min_at(const Rows& rows, const std::function<double(const ParkJangRow&)>& value) {
-  const auto least = std::min_element(rows.begin(), rows.end(),
-                                      [&](const auto* a, const auto* b) { return value(*a) < value(*b); });
+  const auto least =
+      std::ranges::min_element(rows, [&](const auto* a, const auto* b) { return value(*a) < value(*b); });
   return static_cast<std::size_t>(least - rows.begin());
 }
 
@@ -35,7 +35,7 @@ void fill_places(const Rows& rows, ParkJangCurve& curve) {
                      return operations_of(row, row.counted.by_place[place]);
                    })]->groups);
   if (best.empty()) return;
-  std::sort(best.begin(), best.end());
+  std::ranges::sort(best);
   curve.best_of_places_from = best[best.size() / 4];
   curve.best_of_places_to = best[best.size() - 1 - best.size() / 4];
 }

@@ -10,62 +10,6 @@ namespace {
 
 std::string number(double value) { return fmt::format("{:.6g}", value); }
 
-}  // namespace
-
-support::Table park_jang_times(const ParkJangResult& result) {
-  support::Table table({"mesh", "triangles", "form", "cell", "groups", "detection_ms", "update_rate_hz",
-                        "tests_per_query", "contacts", "times_ungrouped", "operations_per_query",
-                        "operations_low", "operations_high", "operations_over_ungrouped",
-                        "groups_per_triangle"});
-  double ungrouped = 0, ungrouped_operations = 0;
-  for (const ParkJangRow& row : result.rows) {
-    const double ns = row.timed ? row.timed->ns : 0;
-    if (row.form == "ungrouped") {
-      ungrouped = ns;
-      ungrouped_operations = operations_of(row, row.counted.mean);
-    }
-    const auto operations = [&row](double tests) {
-      return row.form == "direct" ? "" : fmt::format("{:.0f}", operations_of(row, tests));
-    };
-    table.add({row.mesh, std::to_string(row.triangles), row.form, row.cell > 0 ? number(row.cell) : "",
-               row.groups > 0 ? std::to_string(row.groups) : "", ns > 0 ? number(ns * 1e-6) : "",
-               ns > 0 ? number(1e9 / ns) : "", fmt::format("{:.1f}", row.counted.mean),
-               std::to_string(row.counted.contacts),
-               ns > 0 && ungrouped > 0 ? fmt::format("{:.4g}", ungrouped / ns) : "",
-               operations(row.counted.mean), operations(place_quantile(row.counted, 0.1)),
-               operations(place_quantile(row.counted, 0.9)),
-               ungrouped_operations > 0 && row.form != "direct"
-                   ? fmt::format("{:.4g}", operations_of(row, row.counted.mean) / ungrouped_operations)
-                   : "",
-               row.groups_per_triangle > 0 ? fmt::format("{:.2f}", row.groups_per_triangle) : ""});
-  }
-  return table;
-}
-
-support::Table park_jang_best_table(const ParkJangResult& result) {
-  support::Table table({"mesh", "triangles", "shape", "best_groups", "within_10_percent_from",
-                        "within_10_percent_to", "detection_ms", "ungrouped_ms", "factor", "most_groups_ms",
-                        "best_groups_by_operations", "best_of_places_from", "best_of_places_to",
-                        "factor_by_operations", "tenth_from", "rises_from"});
-  const std::vector<ParkJangCurve> curves = park_jang_curves(result);
-  for (const ParkJangBest& best : park_jang_best(result)) {
-    const auto found = std::find_if(curves.begin(), curves.end(), [&](const ParkJangCurve& c) {
-      return c.mesh == best.mesh && c.shape == best.shape;
-    });
-    const ParkJangCurve curve = found != curves.end() ? *found : ParkJangCurve();
-    const auto whole = [](const std::optional<double>& v) { return v ? fmt::format("{:.0f}", *v) : ""; };
-    table.add({best.mesh, std::to_string(best.triangles), best.shape, std::to_string(best.groups),
-               std::to_string(best.from), std::to_string(best.to), number(best.ns * 1e-6),
-               number(best.ungrouped_ns * 1e-6), fmt::format("{:.2f}", best.factor()),
-               number(best.last_ns * 1e-6), std::to_string(curve.best),
-               std::to_string(curve.best_of_places_from), std::to_string(curve.best_of_places_to),
-               fmt::format("{:.2f}", curve.factor), whole(curve.tenth_from), whole(curve.rises_from)});
-  }
-  return table;
-}
-
-namespace {
-
 /// What the numbers say of the paper's idea, for who reads no further.
 std::string in_short(const ParkJangResult& result) {
   std::string text;
@@ -105,6 +49,57 @@ std::string fast_verdict(const ParkJangResult& result) {
 }
 
 }  // namespace
+
+support::Table park_jang_times(const ParkJangResult& result) {
+  support::Table table({"mesh", "triangles", "form", "cell", "groups", "detection_ms", "update_rate_hz",
+                        "tests_per_query", "contacts", "times_ungrouped", "operations_per_query",
+                        "operations_low", "operations_high", "operations_over_ungrouped",
+                        "groups_per_triangle"});
+  double ungrouped = 0, ungrouped_operations = 0;
+  for (const ParkJangRow& row : result.rows) {
+    const double ns = row.timed ? row.timed->ns : 0;
+    if (row.form == "ungrouped") {
+      ungrouped = ns;
+      ungrouped_operations = operations_of(row, row.counted.mean);
+    }
+    const auto operations = [&row](double tests) {
+      return row.form == "direct" ? "" : fmt::format("{:.0f}", operations_of(row, tests));
+    };
+    table.add({row.mesh, std::to_string(row.triangles), row.form, row.cell > 0 ? number(row.cell) : "",
+               row.groups > 0 ? std::to_string(row.groups) : "", ns > 0 ? number(ns * 1e-6) : "",
+               ns > 0 ? number(1e9 / ns) : "", fmt::format("{:.1f}", row.counted.mean),
+               std::to_string(row.counted.contacts),
+               ns > 0 && ungrouped > 0 ? fmt::format("{:.4g}", ungrouped / ns) : "",
+               operations(row.counted.mean), operations(place_quantile(row.counted, 0.1)),
+               operations(place_quantile(row.counted, 0.9)),
+               ungrouped_operations > 0 && row.form != "direct"
+                   ? fmt::format("{:.4g}", operations_of(row, row.counted.mean) / ungrouped_operations)
+                   : "",
+               row.groups_per_triangle > 0 ? fmt::format("{:.2f}", row.groups_per_triangle) : ""});
+  }
+  return table;
+}
+
+support::Table park_jang_best_table(const ParkJangResult& result) {
+  support::Table table({"mesh", "triangles", "shape", "best_groups", "within_10_percent_from",
+                        "within_10_percent_to", "detection_ms", "ungrouped_ms", "factor", "most_groups_ms",
+                        "best_groups_by_operations", "best_of_places_from", "best_of_places_to",
+                        "factor_by_operations", "tenth_from", "rises_from"});
+  const std::vector<ParkJangCurve> curves = park_jang_curves(result);
+  for (const ParkJangBest& best : park_jang_best(result)) {
+    const auto found = std::ranges::find_if(
+        curves, [&](const ParkJangCurve& c) { return c.mesh == best.mesh && c.shape == best.shape; });
+    const ParkJangCurve curve = found != curves.end() ? *found : ParkJangCurve();
+    const auto whole = [](const std::optional<double>& v) { return v ? fmt::format("{:.0f}", *v) : ""; };
+    table.add({best.mesh, std::to_string(best.triangles), best.shape, std::to_string(best.groups),
+               std::to_string(best.from), std::to_string(best.to), number(best.ns * 1e-6),
+               number(best.ungrouped_ns * 1e-6), fmt::format("{:.2f}", best.factor()),
+               number(best.last_ns * 1e-6), std::to_string(curve.best),
+               std::to_string(curve.best_of_places_from), std::to_string(curve.best_of_places_to),
+               fmt::format("{:.2f}", curve.factor), whole(curve.tenth_from), whole(curve.rises_from)});
+  }
+  return table;
+}
 
 std::string park_jang_report(const std::vector<PaperMesh>& meshes, const ParkJangSettings& settings,
                              const ParkJangResult& result) {
