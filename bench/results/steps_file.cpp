@@ -3,21 +3,110 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <set>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "bench/measurement/result_row.h"
 #include "bench/meshes/drawn_mesh.h"
-#include "bench/results/steps_surroundings.h"
 #include "bench/support/files/packed_blocks.h"
 #include "bench/workload/query_name.h"
 #include "bench/workload/sample_steps.h"
+#include "bench/workload/workload.h"
+#include "core/geometry/point_triangle.h"
 
 namespace touchmark::bench::results {
 namespace {
+
+// Which steps of a run are worth a look at everything about them, and the triangles around their probes.
+
+/// How many of each row's slowest steps, and of its first wrong ones, are noted.
+constexpr std::size_t slowest_noted = 10, wrong_noted = 20;
+/// How many steps of a trace are noted at most: the rows' slowest first, then their second slowest, and so
+/// on.
+constexpr std::size_t max_noted = 240;
+
+/// Returns the steps of the slowest answers, slowest first. Empty where the row was not timed.
+std::vector<std::size_t> slowest_steps(const measurement::StepLog& log, std::size_t count) {
+  std::vector<std::size_t> places(log.ns.size());
+  std::iota(places.begin(), places.end(), 0);
+  const std::size_t kept = std::min(count, places.size());
+  std::partial_sort(
+      places.begin(), places.begin() + static_cast<std::ptrdiff_t>(kept), places.end(),
+      [&](std::size_t a, std::size_t b) { return log.ns[a] != log.ns[b] ? log.ns[a] > log.ns[b] : a < b; });
+  places.resize(kept);
+  for (std::size_t& place : places) place = workload::step_at(log.ranges, place);
+  return places;
+}
+
+/// Returns the steps of one trace to be noted, ascending: `rows` are of this trace and have logs.
+std::vector<std::size_t> noted_steps(const std::vector<const measurement::ResultRow*>& rows) {
+  std::vector<std::vector<std::size_t>> wishes;
+  for (const measurement::ResultRow* row : rows) {
+    wishes.push_back(slowest_steps(*row->log, slowest_noted));
+    std::vector<std::size_t>& wrong = wishes.emplace_back();
+    const std::vector<std::uint8_t>& charged = row->log->charged;
+    for (std::size_t i = 0; i < charged.size() && wrong.size() < wrong_noted; ++i)
+      if (charged[i] != 0) wrong.push_back(workload::step_at(row->log->ranges, i));
+  }
+  std::set<std::size_t> noted;
+  for (std::size_t turn = 0; turn < std::max(slowest_noted, wrong_noted); ++turn)
+    for (const std::vector<std::size_t>& wish : wishes)
+      if (turn < wish.size() && noted.size() < max_noted) noted.insert(wish[turn]);
+  return {noted.begin(), noted.end()};
+}
+
+/// The triangles around probes, each once, with corners in the mesh's own numbers.
+class Surroundings {
+ public:
+  explicit Surroundings(const TriangleMesh& mesh) : mesh_(mesh), places_(mesh.size()) {}
+
+  /// Returns the triangles nearest to the centre, as places in triangles(): at most `triangles_around`. None
+  /// once so many triangles were looked at that a page would wait for them.
+  std::vector<std::uint32_t> around(const Vec3& center) {
+    if (!center.allFinite() || looked_at_ > max_looked_at) return {};
+    looked_at_ += mesh_.size();
+    std::vector<std::pair<double, std::uint32_t>> by_distance;
+    by_distance.reserve(mesh_.size());
+    for (std::uint32_t i = 0; i < mesh_.size(); ++i)
+      by_distance.emplace_back(squared_distance(prepare(mesh_, i), center), i);
+    const std::size_t kept = std::min(triangles_around, by_distance.size());
+    std::partial_sort(by_distance.begin(), by_distance.begin() + static_cast<std::ptrdiff_t>(kept),
+                      by_distance.end());
+    std::vector<std::uint32_t> around;
+    for (std::size_t i = 0; i < kept; ++i) {
+      std::uint32_t& place = places_[by_distance[i].second];
+      if (place == 0) {
+        chosen_.push_back(by_distance[i].second);
+        place = static_cast<std::uint32_t>(chosen_.size());
+      }
+      around.push_back(place - 1);
+    }
+    return around;
+  }
+
+  /// Their positions in the mesh.
+  const std::vector<std::uint32_t>& triangles() const noexcept { return chosen_; }
+
+ private:
+  static constexpr std::size_t triangles_around = 48;
+  static constexpr std::size_t max_looked_at = 200'000'000;
+
+  const TriangleMesh& mesh_;
+  std::size_t looked_at_ = 0;
+  std::vector<std::uint32_t> chosen_;
+  std::vector<std::uint32_t>
+      places_;  ///< a triangle of the mesh each: its place in chosen_, from 1; 0: not chosen
+};
 
 using measurement::ResultRow;
 using Json = nlohmann::ordered_json;

@@ -13,19 +13,22 @@
 #include <fmt/format.h>
 
 #include "bench/cli/benchmark_flags.h"
-#include "bench/cli/commands/bench_reports.h"
 #include "bench/cli/extra/bench_suite.h"
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
+#include "bench/cli/report_files.h"
 #include "bench/cli/run_frame.h"
 #include "bench/cli/selected_workload.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/step_outputs.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
+#include "bench/measurement/result_row.h"
+#include "bench/results/google_benchmark_json.h"
 #include "bench/results/report_table.h"
 #include "bench/results/results_csv.h"
+#include "bench/results/run_json.h"
 #include "bench/results/steps_file.h"
 #include "bench/results/verification_report.h"
 #include "bench/support/checked.h"
@@ -35,6 +38,40 @@
 
 namespace touchmark::bench::cli {
 namespace {
+
+/// What `touchmark bench` leaves for other programs beside --out: Google Benchmark's JSON and Markdown.
+class BenchReports {
+ public:
+  /// Opens the files. Throws ResourceError.
+  BenchReports(const BenchmarkFlags& flags, const ReportSelectors& selectors)
+      : json_(flags.list_tests ? "" : flags.out),
+        markdown_(flags.list_tests ? "" : selectors.markdown),
+        summed_up_(flags.aggregates_only) {}
+
+  /// `verdict` is said under the table of the trajectory's rows.
+  void add_trajectory(const std::string& title, const std::vector<measurement::ResultRow>& rows,
+                      const std::string& verdict) {
+    tables_ +=
+        fmt::format("\n### {}\n\n{}{}", title, results::timing_table(rows).markdown(), code_block(verdict));
+  }
+
+  /// Throws ResourceError.
+  void write(const results::RunDescription& run, const std::vector<measurement::ResultRow>& rows) {
+    if (json_.wanted()) {
+      using results::Repetitions;
+      json_.write(
+          results::google_benchmark_json(run, rows, summed_up_ ? Repetitions::summed_up : Repetitions::each));
+    }
+    if (markdown_.wanted())
+      markdown_.write(fmt::format("## touchmark bench{}\n{}\n{}", run.finished ? "" : " (interrupted)",
+                                  tables_, results::judged_answers(rows)));
+  }
+
+ private:
+  ReportFile json_, markdown_;
+  bool summed_up_;
+  std::string tables_;
+};
 
 constexpr std::size_t faulty_rows_shown = 20;
 const std::vector<std::string> default_trajectories{"hand", "approach", "hover", "jump"};
