@@ -60,7 +60,7 @@ void split_on_sphere(Surface& surface) {
       edges.push_back({(std::uint64_t{low} << 32) | high, static_cast<std::uint32_t>(3 * t + k)});
     }
   }
-  std::ranges::sort(edges);
+  std::sort(edges.begin(), edges.end());
 
   surface.vertices.reserve(surface.vertices.size() + edges.size() / 2);
   std::vector<std::uint32_t> middle(edges.size());

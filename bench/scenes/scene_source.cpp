@@ -42,8 +42,7 @@ using Track = std::vector<Row>;
 using Tracks = std::map<std::uint32_t, Track>;
 
 Placement placement_at(const Track& track, double time_s) {
-  const auto after =
-      std::ranges::upper_bound(track, time_s, [](double time, const Row& row) { return time < row.time_s; });
+  const auto after = std::ranges::upper_bound(track, time_s, {}, &Row::time_s);
   if (after == track.begin()) return track.front().placement;
   const Row& before = *(after - 1);
   if (after == track.end() || before.time_s == time_s) return before.placement;
