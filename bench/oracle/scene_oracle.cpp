@@ -27,17 +27,6 @@ bool is_outside_by(const Vec3& point, const PlacedTriangle& round, double margin
   return compare_distance(point, round, round.radius, margin) > 0;
 }
 
-/// A face, which keeps its edges and both ends that far away.
-bool is_surely_pierced(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle, double margin) {
-  if (!is_within(from, to, triangle, 0)) return false;
-  if (is_within(from, triangle, margin) || is_within(to, triangle, margin)) return false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 &a = triangle.corners[i], &b = triangle.corners[(i + 1) % 3];
-    if (is_within(from, to, {{a, b, b}, triangle.pose}, margin)) return false;
-  }
-  return true;
-}
-
 /// Is the surface within the radius, which is at least 0, of the point?
 bool is_within(const Vec3& point, const PlacedTriangle& triangle, double radius) {
   const Interval distance = bounds_of(point, triangle);
@@ -91,6 +80,17 @@ bool is_touched_before(const Sweep& sweep, double fraction, const PlacedTriangle
   // At the very radius: only from here on?
   return compare_distance_on_path(from, to, fraction, triangle, radius, triangle.radius) != 0 ||
          up_to(std::nextafter(fraction, 0)) <= 0;
+}
+
+/// A face, which keeps its edges and both ends that far away.
+bool is_surely_pierced(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle, double margin) {
+  if (!is_within(from, to, triangle, 0)) return false;
+  if (is_within(from, triangle, margin) || is_within(to, triangle, margin)) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = triangle.corners[i], &b = triangle.corners[(i + 1) % 3];
+    if (is_within(from, to, {{a, b, b}, triangle.pose}, margin)) return false;
+  }
+  return true;
 }
 
 /// Reference::surely_crosses, for this one.

@@ -93,12 +93,6 @@ constexpr MotionKind motion_kinds[] = {
     {"all", "every body in Brownian motion, at all frequencies up to 1 kHz", restless},
 };
 
-std::vector<BodySceneInfo> body_motions() {
-  std::vector<BodySceneInfo> infos;
-  for (const MotionKind& kind : motion_kinds) infos.push_back({kind.name, kind.description});
-  return infos;
-}
-
 /// Nothing where the name is of no motion. Lengths are in the diagonal of a body's box, which is 1.
 std::optional<BodyMotion> generated_motion(const std::string& name, const BodyScene& scene) {
   const auto* const kind = std::ranges::find(motion_kinds, name, &MotionKind::name);
@@ -207,6 +201,12 @@ BodyScene made(const Kind& kind, const std::string& what, std::uint32_t count) {
 }
 
 }  // namespace
+
+std::vector<BodySceneInfo> body_motions() {
+  std::vector<BodySceneInfo> infos;
+  for (const MotionKind& kind : motion_kinds) infos.push_back({kind.name, kind.description});
+  return infos;
+}
 
 std::vector<BodySceneInfo> body_scenes() {
   std::vector<BodySceneInfo> infos;

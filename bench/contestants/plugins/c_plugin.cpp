@@ -26,6 +26,43 @@
 namespace touchmark::bench::contestants {
 namespace {
 
+/// Room for a text of the plug-in's, as one line whatever it wrote.
+class ErrorText {
+ public:
+  char* data() noexcept { return text_.data(); }
+  std::size_t size() const noexcept { return text_.size(); }
+  std::string or_else(const char* otherwise) const {
+    std::string text(text_.begin(), std::ranges::find(text_, '\0'));
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char letter) { return letter < ' '; }, ' ');
+    return text.empty() ? otherwise : text;
+  }
+
+ private:
+  std::array<char, 1024> text_{};
+};
+
+touchmark_plugin_mesh c_mesh(const TriangleMesh& mesh) noexcept {
+  return {mesh.vertices().front().data(), mesh.vertices().size(), mesh.triangles().front().data(),
+          mesh.size()};
+}
+
+Accuracy accuracy_of(const touchmark_plugin& plugin, const void* detector, Guarantee claimed) {
+  touchmark_plugin_accuracy said{};
+  if (plugin.accuracy != nullptr) plugin.accuracy(detector, &said);
+  if (!(said.relative >= 0) || !(said.absolute >= 0))
+    throw std::invalid_argument("the accuracy that it tells is below 0, or no number");
+  Accuracy accuracy{claimed, said.relative, said.absolute, said.decides_exactly != 0,
+                    said.names_exactly != 0};
+  if (said.relative > 0 || said.absolute > 0) return accuracy;
+  if (claimed == Guarantee::exact) {
+    accuracy.relative = kernel_relative_error;
+  } else {
+    accuracy.absolute = std::numeric_limits<double>::infinity();
+  }
+  return accuracy;
+}
+
 /// A plug-in's functions as a detector. What they cost beside the plug-in's own time is the call through a
 /// pointer, and the probe and the answer once more in memory.
 class PluginDetector {
@@ -40,7 +77,13 @@ class PluginDetector {
   class Session {
    public:
     Session() = default;
-    Session(const touchmark_plugin& plugin, std::shared_ptr<void> detector);
+    Session(const touchmark_plugin& plugin, std::shared_ptr<void> detector) : begun_(true) {
+      if (plugin.create_session == nullptr) return;
+      void* const made = plugin.create_session(detector.get());
+      if (made == nullptr) throw std::runtime_error("create_session returns NULL");
+      session_ = {made,
+                  [&plugin, detector](void* session) { plugin.destroy_session(detector.get(), session); }};
+    }
 
     void* get() const noexcept { return session_.get(); }
     bool is_begun() const noexcept { return begun_; }
@@ -146,51 +189,6 @@ class PluginDetector {
   Accuracy accuracy_;
   Connectivity connectivity_;
 };
-
-/// Room for a text of the plug-in's, as one line whatever it wrote.
-class ErrorText {
- public:
-  char* data() noexcept { return text_.data(); }
-  std::size_t size() const noexcept { return text_.size(); }
-  std::string or_else(const char* otherwise) const {
-    std::string text(text_.begin(), std::ranges::find(text_, '\0'));
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char letter) { return letter < ' '; }, ' ');
-    return text.empty() ? otherwise : text;
-  }
-
- private:
-  std::array<char, 1024> text_{};
-};
-
-touchmark_plugin_mesh c_mesh(const TriangleMesh& mesh) noexcept {
-  return {mesh.vertices().front().data(), mesh.vertices().size(), mesh.triangles().front().data(),
-          mesh.size()};
-}
-
-Accuracy accuracy_of(const touchmark_plugin& plugin, const void* detector, Guarantee claimed) {
-  touchmark_plugin_accuracy said{};
-  if (plugin.accuracy != nullptr) plugin.accuracy(detector, &said);
-  if (!(said.relative >= 0) || !(said.absolute >= 0))
-    throw std::invalid_argument("the accuracy that it tells is below 0, or no number");
-  Accuracy accuracy{claimed, said.relative, said.absolute, said.decides_exactly != 0,
-                    said.names_exactly != 0};
-  if (said.relative > 0 || said.absolute > 0) return accuracy;
-  if (claimed == Guarantee::exact) {
-    accuracy.relative = kernel_relative_error;
-  } else {
-    accuracy.absolute = std::numeric_limits<double>::infinity();
-  }
-  return accuracy;
-}
-
-PluginDetector::Session::Session(const touchmark_plugin& plugin, std::shared_ptr<void> detector)
-    : begun_(true) {
-  if (plugin.create_session == nullptr) return;
-  void* const made = plugin.create_session(detector.get());
-  if (made == nullptr) throw std::runtime_error("create_session returns NULL");
-  session_ = {made, [&plugin, detector](void* session) { plugin.destroy_session(detector.get(), session); }};
-}
 
 constexpr const char* entry_symbol = "touchmark_plugin_entry";
 constexpr std::uint32_t max_options = 100;
