@@ -44,13 +44,11 @@ void fail(const Location& location, std::string wrong, std::vector<SchemaFault>&
 std::string child(const Location& location, const std::string& key) { return location.pointer + "/" + key; }
 
 void check_members(const Json& schemas, const Location& location, std::vector<SchemaFault>& faults) {
-  if (!location.value.is_object()) return;
   for (const auto& [key, member] : location.value.items())
     if (schemas.contains(key)) check(schemas[key], {child(location, key), member}, faults);
 }
 
 void check_required(const Json& keys, const Location& location, std::vector<SchemaFault>& faults) {
-  if (!location.value.is_object()) return;
   for (const Json& key : keys) {
     if (location.value.contains(key.get<std::string>())) continue;
     faults.push_back({child(location, key), "", "is missing"});
@@ -59,19 +57,16 @@ void check_required(const Json& keys, const Location& location, std::vector<Sche
 
 /// Checks all members: no schema has `properties` beside it, which would name some of them.
 void check_every_member(const Json& schema, const Location& location, std::vector<SchemaFault>& faults) {
-  if (!location.value.is_object()) return;
   for (const auto& [key, member] : location.value.items())
     check(schema, {child(location, key), member}, faults);
 }
 
 void check_items(const Json& schema, const Location& location, std::vector<SchemaFault>& faults) {
-  if (!location.value.is_array()) return;
   for (std::size_t i = 0; i < location.value.size(); ++i)
     check(schema, {child(location, std::to_string(i)), location.value[i]}, faults);
 }
 
 void check_pattern(const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-  if (!location.value.is_string()) return;
   constexpr std::size_t longest = 4096;  // the library's matcher recurs once a character
   const auto& pattern = keyword.get_ref<const std::string&>();
   const auto& text = location.value.get_ref<const std::string&>();
@@ -93,62 +88,36 @@ void check_type(const Json& types, const Location& location, std::vector<SchemaF
     fail(location, fmt::format("is not of type {}", types.get<std::string>()), faults);
 }
 
-void check_size(const Json& limit, const Location& location, std::vector<SchemaFault>& faults, bool least) {
-  if (!location.value.is_array()) return;
-  const std::size_t size = location.value.size(), bound = limit.get<std::size_t>();
-  if (least ? size < bound : size > bound)
-    fail(location, fmt::format("has {} items, not at {} {}", size, least ? "least" : "most", bound), faults);
-}
-
-using Check = void (*)(const Json& keyword, const Location& location, std::vector<SchemaFault>& faults);
+using J = const Json&;
 
 struct Keyword {
   std::string_view name;
-  Check check;
+  std::string_view of;  ///< the type of the values that it is about; empty: any
+  void (*check)(J keyword, const Location& location, std::vector<SchemaFault>& faults);
+  bool (*holds)(J limit, J value) = nullptr;  ///< where there is no check
+  const char* wrong = "";  ///< of a value for which it does not hold; {}: the limit; {1}: its size
 };
 
 constexpr std::array keywords{
-    Keyword{"type", &check_type},
-    Keyword{"properties", &check_members},
-    Keyword{"required", &check_required},
-    Keyword{"additionalProperties", &check_every_member},
-    Keyword{"items", &check_items},
-    Keyword{"pattern", &check_pattern},
-    Keyword{"anyOf", &check_any_of},
-    Keyword{"const",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (location.value != keyword) fail(location, fmt::format("is not {}", keyword.dump()), faults);
-            }},
-    Keyword{"enum",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (std::ranges::find(keyword, location.value) != keyword.end()) return;
-              fail(location, fmt::format("is none of {}", keyword.dump()), faults);
-            }},
-    Keyword{"minLength",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (!location.value.is_string()) return;
-              if (location.value.get_ref<const std::string&>().size() >= keyword.get<std::size_t>()) return;
-              fail(location, "is too short", faults);
-            }},
-    Keyword{"minimum",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (location.value.is_number() && location.value < keyword)
-                fail(location, fmt::format("is below {}", keyword.dump()), faults);
-            }},
-    Keyword{"maximum",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (location.value.is_number() && location.value > keyword)
-                fail(location, fmt::format("is above {}", keyword.dump()), faults);
-            }},
-    Keyword{"minItems",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              check_size(keyword, location, faults, true);
-            }},
-    Keyword{"maxItems",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              check_size(keyword, location, faults, false);
-            }},
-};
+    Keyword{"type", "", &check_type},
+    Keyword{"properties", "object", &check_members},
+    Keyword{"required", "object", &check_required},
+    Keyword{"additionalProperties", "object", &check_every_member},
+    Keyword{"items", "array", &check_items},
+    Keyword{"pattern", "string", &check_pattern},
+    Keyword{"anyOf", "", &check_any_of},
+    Keyword{"const", "", nullptr, [](J limit, J value) { return value == limit; }, "is not {}"},
+    Keyword{"enum", "", nullptr,
+            [](J limit, J value) { return std::ranges::find(limit, value) != limit.end(); }, "is none of {}"},
+    Keyword{"minLength", "string", nullptr,
+            [](J limit, J value) { return value.get_ref<const std::string&>().size() >= limit; },
+            "is too short"},
+    Keyword{"minimum", "number", nullptr, [](J limit, J value) { return value >= limit; }, "is below {}"},
+    Keyword{"maximum", "number", nullptr, [](J limit, J value) { return value <= limit; }, "is above {}"},
+    Keyword{"minItems", "array", nullptr, [](J limit, J value) { return value.size() >= limit; },
+            "has {1} items, not at least {0}"},
+    Keyword{"maxItems", "array", nullptr, [](J limit, J value) { return value.size() <= limit; },
+            "has {1} items, not at most {0}"}};
 
 constexpr std::array notes{"$schema", "$id", "title", "description"};
 
@@ -159,8 +128,14 @@ const Keyword* keyword_named(const std::string& name) {
 }
 
 void check(const Json& schema, const Location& location, std::vector<SchemaFault>& faults) {
-  for (const auto& [name, value] : schema.items())
-    if (const Keyword* const keyword = keyword_named(name)) keyword->check(value, location, faults);
+  for (const auto& [name, value] : schema.items()) {
+    const Keyword* const keyword = keyword_named(name);
+    if (keyword == nullptr || (!keyword->of.empty() && !has_type(location.value, keyword->of))) continue;
+    if (keyword->check != nullptr)
+      keyword->check(value, location, faults);
+    else if (!keyword->holds(value, location.value))
+      fail(location, fmt::format(fmt::runtime(keyword->wrong), value.dump(), location.value.size()), faults);
+  }
 }
 
 /// Throws for what check() would pass over.

@@ -271,7 +271,7 @@ class ResultsRowCheck : RowCheck {
     const nlohmann::json queries = run_->value("queries", nlohmann::json());  // where it is of several
     if (!queries.is_array()) {
       expect("query", run_->value("query", nlohmann::json()));
-    } else if (std::ranges::find(queries, field("query")) == queries.end()) {
+    } else if (std::ranges::find(queries, Json(field("query"))) == queries.end()) {
       fault("query", "is not among run.json's queries");
     }
     const nlohmann::json meshes = run_->value("meshes", nlohmann::json());
