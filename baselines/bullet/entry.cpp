@@ -6,16 +6,15 @@
 #include "baselines/bullet/bullet_detector.h"
 #include "baselines/bullet/bullet_scene.h"
 #include "baselines/bullet/view.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/rival_options.h"
 #include "bench/contestants/rival_scene.h"
 
 namespace touchmark::bench::contestants {
 
 ContestantInfo bullet_entry() {
-  ContestantInfo info;
-  info.name = "bullet";
-  info.rank = 60;
-  info.summary = "Bullet Physics: a hierarchy of quantised boxes";
+  ContestantInfo info = introduced("bullet", 60, "Bullet Physics: a hierarchy of quantised boxes",
+                                   "approximate; method=callback: exact");
   using baselines::BulletDetector;
   using Precision = BulletDetector::Precision;
   using Method = BulletDetector::Method;
@@ -24,7 +23,6 @@ ContestantInfo bullet_entry() {
                                            {"float", Precision::single_precision}};
   static const Names<Method> methods{{"contact", Method::contact}, {"callback", Method::callback}};
   static const Names<Frame> frames{{"mesh", Frame::mesh}, {"fitted", Frame::fitted}};
-  info.accuracy = "approximate; method=callback: exact";
   info.queries = queries_of<BulletDetector>();
   info.options = {
       choice("precision", precisions, "which of Debian's two builds of the library"),
