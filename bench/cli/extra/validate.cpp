@@ -21,7 +21,7 @@
 #include "bench/experiments/scaling/body_row.h"
 #include "bench/experiments/servo/servo_check.h"
 #include "bench/experiments/stress/stress_csv.h"
-#include "bench/experiments/suite/suite_csv.h"
+#include "bench/experiments/suite/suite_check.h"
 #include "bench/results/validation/located_json.h"
 #include "bench/results/validation/results_check.h"
 #include "bench/results/validation/run_check.h"

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/experiments/suite/suite_check.h"
 #include "bench/experiments/suite/suite_csv.h"
 #include "bench/experiments/suite/suite_plan.h"
 #include "bench/experiments/suite/suite_report.h"
