@@ -94,8 +94,8 @@ struct Keyword {
   std::string_view name;
   std::string_view of;  ///< the type of the values that it is about; empty: any
   void (*check)(J keyword, const Location& location, std::vector<SchemaFault>& faults);
-  bool (*holds)(J limit, J value) = nullptr;  ///< where there is no check
-  const char* wrong = "";  ///< of a value for which it does not hold; {}: the limit; {1}: its size
+  bool (*holds)(J limit, J value) = nullptr;  ///< asked where check is null
+  const char* wrong = "";  ///< told where the limit does not hold; {}: it; {1}: the value's size
 };
 
 constexpr std::array keywords{
