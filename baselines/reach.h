@@ -64,9 +64,8 @@ auto nearest_by_growing(const Aabb& bounds, const Vec3& center, double reach, As
   const double outside = std::sqrt(bounds.squared_distance(center));
   constexpr int doublings = 7;  // from 1/128 of the box's diagonal to all of it
   double inside = std::ldexp(bounds.diagonal(), -doublings);
-  for (int i = 0; i < doublings && outside + inside < reach; ++i, inside *= 2) {
+  for (int i = 0; i < doublings && outside + inside < reach; ++i, inside *= 2)
     if (auto contact = ask(outside + inside)) return contact;
-  }
   return ask(reach);
 }
 

@@ -97,11 +97,10 @@ struct RivalModel {
 /// Throws MeshError for a mesh of more triangles or vertices than the library, which counts in int, can take.
 inline void require_int_counts(const char* library, const TriangleMesh& mesh) {
   constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
-  if (mesh.size() > most || mesh.vertices().size() > most) {
+  if (mesh.size() > most || mesh.vertices().size() > most)
     throw MeshError(library +
                     (" counts in int: " + std::to_string(std::max(mesh.size(), mesh.vertices().size()))) +
                     " triangles or vertices are more than " + std::to_string(most));
-  }
 }
 
 }  // namespace touchmark::baselines

@@ -30,19 +30,17 @@ std::string_view text_of(results::Presence presence) {
 }
 
 std::string_view without_article(std::string_view text) {
-  for (const std::string_view article : {"a ", "an "}) {
+  for (const std::string_view article : {"a ", "an "})
     if (text.starts_with(article)) text.remove_prefix(article.size());
-  }
   return text;
 }
 
 template <class Columns>
 void print_table(const Columns& columns) {
   fmt::print("| column | means | holds | filled in |\n|---|---|---|---|\n");
-  for (const auto& column : columns) {
+  for (const auto& column : columns)
     fmt::print("| `{}` | {} | {} | {} |\n", column.name, column.means, without_article(column.kind.what),
                text_of(column.presence));
-  }
 }
 
 }  // namespace

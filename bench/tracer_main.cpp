@@ -1,6 +1,6 @@
 /// touchmark-tracer: asks one of our detectors the steps of a trajectory, with a core that notes what a query
 /// looks at, and prints that of some steps as JSON (docs/reference/visited-json.md). `touchmark query
-/// --visits` starts it. Its standard input is what bench/cli/step_visits.cpp writes.
+/// --visits` starts it. Its standard input is what bench/cli/commands/query.cpp writes.
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -34,10 +34,9 @@ void Connectivity::expect(const TriangleMesh& mesh) const {
   const Connectivity found(mesh);
   expect_as_many(found.vertices_, vertices_, "vertices");
   expect_as_many(found.triangles_, triangles_, "triangles");
-  if (found.corners_and_ids_ != corners_and_ids_) {
+  if (found.corners_and_ids_ != corners_and_ids_)
     throw std::invalid_argument(
         "update: the triangles have other corners or ids than those that the detector was built with");
-  }
 }
 
 }  // namespace touchmark

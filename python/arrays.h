@@ -34,13 +34,11 @@ inline Points points(const Array<double>& array, const char* name) {
 inline Sizes sizes(const Array<double>& array, std::size_t count, const char* name) {
   if (array.ndim() != 1 || (array.shape(0) != 1 && static_cast<std::size_t>(array.shape(0)) != count))
     throw std::invalid_argument(std::string(name) + " must be one number, or one for each point");
-  for (py::ssize_t i = 0; i < array.shape(0); ++i) {
-    if (!(array.data()[i] >= 0)) {
+  for (py::ssize_t i = 0; i < array.shape(0); ++i)
+    if (!(array.data()[i] >= 0))
       throw std::invalid_argument(
           std::string(name) + (array.shape(0) == 1 ? "" : "[" + std::to_string(i) + "]") + " is " +
           py::str(py::float_(array.data()[i])).cast<std::string>() + "; it must be 0 or more");
-    }
-  }
   return {array.data(), array.shape(0) == 1};
 }
 

@@ -101,10 +101,9 @@ void BatchDetector::expect_usable() const {
 void BatchDetector::update(std::vector<Vec3> vertices) {
   const std::unique_lock alone(lock_);
   expect_usable();
-  if (vertices.size() != mesh_->vertices().size()) {
+  if (vertices.size() != mesh_->vertices().size())
     throw std::invalid_argument("vertices has " + std::to_string(vertices.size()) + " rows; the mesh has " +
                                 std::to_string(mesh_->vertices().size()) + " vertices");
-  }
   auto moved = std::make_shared<const TriangleMesh>(
       std::move(vertices),
       std::vector<TriangleMesh::Corners>(mesh_->triangles().begin(), mesh_->triangles().end()));

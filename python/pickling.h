@@ -21,11 +21,10 @@ inline std::string package_version() {
 inline void expect_pickle(const py::tuple& state, std::size_t size, const char* what) {
   const std::string here = package_version();
   const std::string version = state.empty() ? "" : py::str(state[0]).cast<std::string>();
-  if (version != here) {
+  if (version != here)
     throw py::value_error(std::string(what) + " was pickled by touchmark " + version +
                           ", and this is touchmark " + here +
                           ": unpickle it with that version, or build it anew from vertices and faces");
-  }
   if (state.size() != size) throw py::value_error("the pickle of a " + std::string(what) + " is damaged");
 }
 

@@ -6,16 +6,15 @@
 #include "baselines/bullet/bullet_detector.h"
 #include "baselines/bullet/bullet_scene.h"
 #include "baselines/bullet/view.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/rival_options.h"
 #include "bench/contestants/rival_scene.h"
 
 namespace touchmark::bench::contestants {
 
 ContestantInfo bullet_entry() {
-  ContestantInfo info;
-  info.name = "bullet";
-  info.rank = 60;
-  info.summary = "Bullet Physics: a hierarchy of quantised boxes";
+  ContestantInfo info = introduced("bullet", 60, "Bullet Physics: a hierarchy of quantised boxes",
+                                   "approximate; method=callback: exact");
   using baselines::BulletDetector;
   using Precision = BulletDetector::Precision;
   using Method = BulletDetector::Method;
@@ -24,7 +23,6 @@ ContestantInfo bullet_entry() {
                                            {"float", Precision::single_precision}};
   static const Names<Method> methods{{"contact", Method::contact}, {"callback", Method::callback}};
   static const Names<Frame> frames{{"mesh", Frame::mesh}, {"fitted", Frame::fitted}};
-  info.accuracy = "approximate; method=callback: exact";
   info.queries = queries_of<BulletDetector>();
   info.options = {
       choice("precision", precisions, "which of Debian's two builds of the library"),
@@ -36,10 +34,9 @@ ContestantInfo bullet_entry() {
     return values.text("precision") == "float" ? "touchmark-worker-bullet-float" : default_worker_program;
   };
   const auto options_of = [](const OptionValues& values) -> BulletDetector::Options {
-    if (chosen(values, "precision", precisions) != BulletDetector::precision()) {
+    if (chosen(values, "precision", precisions) != BulletDetector::precision())
       throw std::invalid_argument("bullet: precision=" + values.text("precision") +
                                   " is not the build of Bullet that this program has");
-    }
     return {chosen(values, "method", methods), chosen(values, "frame", frames), asking(values)};
   };
   info.build = [options_of](const TriangleMesh& mesh, const OptionValues& values) {

@@ -14,9 +14,8 @@ struct BulletView {
   /// Box centre at the origin, mean edge length 1: the size that Bullet is written for.
   static BulletView fitted(const TriangleMesh& mesh) {
     double sum = 0;
-    for (std::size_t i = 0; i < mesh.size(); ++i) {
+    for (std::size_t i = 0; i < mesh.size(); ++i)
       for (int k = 0; k < 3; ++k) sum += (mesh.corner(i, k) - mesh.corner(i, (k + 1) % 3)).norm();
-    }
     const double edge = sum / (3 * static_cast<double>(mesh.size()));
     return {edge > 0 ? 1 / edge : 1, mesh.bounds().center()};
   }

@@ -1,22 +1,20 @@
 #include "bench/contestants/entry.h"
 
 #include "baselines/cgal/cgal_detector.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/rival_options.h"
 
 namespace touchmark::bench::contestants {
 
 ContestantInfo cgal_entry() {
-  ContestantInfo info;
-  info.name = "cgal";
-  info.rank = 90;
-  info.summary = "CGAL: closest point over its AABB tree";
+  ContestantInfo info =
+      introduced("cgal", 90, "CGAL: closest point over its AABB tree", "approximate; kernel=epeck: exact");
   using baselines::CgalDetector;
   using Kernel = CgalDetector::Kernel;
   using Hint = CgalDetector::Hint;
   static const Names<Kernel> kernels{
       {"epick", Kernel::epick}, {"simple", Kernel::simple}, {"epeck", Kernel::epeck}};
   static const Names<Hint> hints{{"bounded", Hint::bounded}, {"none", Hint::none}, {"last", Hint::last}};
-  info.accuracy = "approximate; kernel=epeck: exact";
   info.queries = queries_of<CgalDetector>();
   info.options = {choice("kernel", kernels,
                          "simple: doubles throughout; epick: exact predicates; epeck: exact points, too"),

@@ -6,16 +6,16 @@
 #include "baselines/embree/embree_detector.h"
 #include "baselines/embree/embree_scene.h"
 #include "baselines/embree/frame.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/rival_options.h"
 #include "bench/contestants/rival_scene.h"
 
 namespace touchmark::bench::contestants {
 
 ContestantInfo embree_entry() {
-  ContestantInfo info;
-  info.name = "embree";
-  info.rank = 80;
-  info.summary = "Embree: point query over its hierarchy, this project's kernel as the callback";
+  ContestantInfo info = introduced(
+      "embree", 80, "Embree: point query over its hierarchy, this project's kernel as the callback",
+      "exact; geometry=triangle: approximate");
   using baselines::EmbreeDetector;
   using Geometry = EmbreeDetector::Geometry;
   using Quality = EmbreeDetector::Quality;
@@ -24,7 +24,6 @@ ContestantInfo embree_entry() {
                                           {"triangle_exact", Geometry::triangle_exact}};
   static const Names<Quality> qualities{
       {"medium", Quality::medium}, {"high", Quality::high}, {"refit", Quality::refit}};
-  info.accuracy = "exact; geometry=triangle: approximate";
   info.queries = queries_of<EmbreeDetector>();
   info.options = {
       choice("geometry", geometries,

@@ -5,16 +5,15 @@
 #include "baselines/fcl/fcl_ccd.h"
 #include "baselines/fcl/fcl_detector.h"
 #include "baselines/fcl/fcl_scene.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/rival_options.h"
 #include "bench/contestants/rival_scene.h"
 
 namespace touchmark::bench::contestants {
 
 ContestantInfo fcl_entry() {
-  ContestantInfo info;
-  info.name = "fcl";
-  info.rank = 50;
-  info.summary = "Flexible Collision Library: bounding volume hierarchies";
+  ContestantInfo info = introduced("fcl", 50, "Flexible Collision Library: bounding volume hierarchies",
+                                   "approximate; bv=aabb with narrow=exact: exact");
   using baselines::FclDetector;
   using Volume = FclDetector::Volume;
   using Method = FclDetector::Method;
@@ -31,7 +30,6 @@ ContestantInfo fcl_entry() {
     return {chosen(values, "bv", volumes), chosen(values, "method", methods),
             chosen(values, "narrow", narrows), asking(values)};
   };
-  info.accuracy = "approximate; bv=aabb with narrow=exact: exact";
   info.queries = queries_of<FclDetector>();
   info.options = {
       choice("bv", volumes, "the hierarchy's bounding volume"),

@@ -293,14 +293,12 @@ struct FclDetector::ModelOf : FclDetector::Model {
   }
 
   std::optional<Contact> nearest(const Vec3& center, double reach, Session& session) const override {
-    if (options.method != Method::distance) {
+    if (options.method != Method::distance)
       return options.narrow == Narrow::exact ? exact_deepest(center, reach, session)
                                              : deepest_contact(center, reach, session);
-    }
-    if constexpr (has_distance) {
+    if constexpr (has_distance)
       return options.narrow == Narrow::exact ? exact_nearest(center, reach, session)
                                              : bounded_distance(center, reach, session);
-    }
     return std::nullopt;
   }
 
@@ -372,10 +370,9 @@ struct FclDetector::ModelOf : FclDetector::Model {
     // Only what is nearer than the bound counts for FCL; contact here is closed. The last triangle's distance
     // bounds the search with more room than FCL's roundings take: which triangle FCL finds does not change.
     double bound = reach;
-    if (checked() && session.last < static_cast<std::uint32_t>(hierarchy.num_tris)) {
+    if (checked() && session.last < static_cast<std::uint32_t>(hierarchy.num_tris))
       bound = std::min(bound, node.measured(static_cast<int>(session.last)).distance +
                                   fitting_slack(largest_coordinate, center));
-    }
     fcl::DistanceResultd result(std::nextafter(bound, std::numeric_limits<double>::infinity()));
     node.result = &result;
     nodes::distance(&node, nullptr, 2);

@@ -1,21 +1,20 @@
 #include "bench/contestants/entry.h"
 
 #include "baselines/libccd/libccd_detector.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/rival_options.h"
 
 namespace touchmark::bench::contestants {
 
 ContestantInfo libccd_entry() {
-  ContestantInfo info;
-  info.name = "libccd+aabb";
-  info.rank = 70;
-  info.summary = "libccd between the ball and each candidate triangle of this project's box tree";
+  ContestantInfo info = introduced(
+      "libccd+aabb", 70, "libccd between the ball and each candidate triangle of this project's box tree",
+      "approximate");
   using baselines::LibccdDetector;
   using Algorithm = LibccdDetector::Algorithm;
   using Frame = LibccdDetector::Frame;
   static const Names<Algorithm> algorithms{{"gjk", Algorithm::gjk}, {"mpr", Algorithm::mpr}};
   static const Names<Frame> frames{{"fitted", Frame::fitted}, {"mesh", Frame::mesh}};
-  info.accuracy = "approximate";
   info.queries = queries_of<LibccdDetector>();
   info.options = {choice("algorithm", algorithms, "gjk: GJK and EPA; mpr: Minkowski portal refinement"),
                   choice("frame", frames, "fitted: the ball as the unit ball; mesh: coordinates as they are"),

@@ -216,10 +216,9 @@ struct LibccdDetector::Model : RivalModel<LibccdDetector::Options> {
 };
 
 LibccdDetector LibccdDetector::build(const TriangleMesh& mesh, const Options& options) {
-  if (!(options.tolerance > 0)) {
+  if (!(options.tolerance > 0))
     throw std::invalid_argument("libccd+aabb: tolerance=" + std::to_string(options.tolerance) +
                                 " is not positive");
-  }
   if (options.iterations == 0) throw std::invalid_argument("libccd+aabb: iterations=0 lets GJK do nothing");
   return LibccdDetector(make_hidden<const Model>(mesh, options));
 }

@@ -1,6 +1,7 @@
 #include "bench/contestants/entry.h"
 
 #include "baselines/ode/ode_detector.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/rival_options.h"
 
 namespace touchmark::bench::contestants {
@@ -9,11 +10,8 @@ ContestantInfo ode_entry() {
   using baselines::OdeDetector;
   using Sides = OdeDetector::Sides;
   static const Names<Sides> sides{{"front", Sides::front}, {"both", Sides::both}};
-  ContestantInfo info;
-  info.name = "ode";
-  info.rank = 100;
-  info.summary = "Open Dynamics Engine: OPCODE's hierarchy of boxes";
-  info.accuracy = "approximate";
+  ContestantInfo info =
+      introduced("ode", 100, "Open Dynamics Engine: OPCODE's hierarchy of boxes", "approximate");
   info.queries = queries_of<OdeDetector>();
   info.options = {
       choice("sides", sides, "front: as the mesh is, collided with from outside; both: its inside, too"),

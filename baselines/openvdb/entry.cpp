@@ -3,6 +3,7 @@
 #include <string>
 
 #include "baselines/openvdb/openvdb_detector.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/rival_module.h"
 #include "bench/contestants/rival_options.h"
 
@@ -15,11 +16,9 @@ ContestantInfo openvdb_entry() {
   static const Names<Distances> distances{{"signed", Distances::with_sign}, {"unsigned", Distances::without}};
   static const Names<Found> contacts{{"gradient", Found::gradient}, {"polygon", Found::polygon}};
   static const std::string module = "openvdb";
-  ContestantInfo info;
-  info.name = module;
-  info.rank = 110;
-  info.summary = "OpenVDB: distances sampled on a sparse lattice, read by trilinear interpolation";
-  info.accuracy = "approximate";
+  ContestantInfo info = introduced(
+      module, 110, "OpenVDB: distances sampled on a sparse lattice, read by trilinear interpolation",
+      "approximate");
   info.queries = queries_of<OpenVdbDetector>();
   info.options = {{"voxel", OptionKind::length, {}, "1%", "edge of a voxel"},
                   {"band", OptionKind::length, {}, "1%", "nothing is found farther away; at least 3 voxels"},

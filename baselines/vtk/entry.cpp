@@ -4,6 +4,7 @@
 #include <string>
 
 #include "baselines/vtk/vtk_detector.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/rival_module.h"
 #include "bench/contestants/rival_options.h"
 
@@ -14,11 +15,8 @@ ContestantInfo vtk_entry() {
   using Locator = VtkDetector::Locator;
   static const Names<Locator> locators{{"static", Locator::fixed}, {"implicit", Locator::implicit}};
   static const std::string module = "vtk";
-  ContestantInfo info;
-  info.name = module;
-  info.rank = 120;
-  info.summary = "VTK: its static cell locator, or its implicit distance of a mesh";
-  info.accuracy = "approximate";
+  ContestantInfo info = introduced(
+      module, 120, "VTK: its static cell locator, or its implicit distance of a mesh", "approximate");
   info.queries = queries_of<VtkDetector>();
   info.options = {choice("locator", locators,
                          "static: vtkStaticCellLocator within a radius; implicit: "

@@ -43,9 +43,8 @@ std::vector<std::string> sorting_key(const FoundJob& job) {
 
 std::map<std::string, std::size_t> positions_of(const Manifest& manifest) {
   std::map<std::string, std::size_t> positions;
-  for (const BatchMesh& planned : manifest.meshes) {
+  for (const BatchMesh& planned : manifest.meshes)
     for (const BatchJob& job : planned.jobs) positions.emplace(job.id, positions.size());
-  }
   return positions;
 }
 
@@ -86,15 +85,13 @@ void note_source(FoundJob& job) {
 
 void expect_one_machine(const std::vector<FoundJob>& jobs) {
   std::map<std::string, std::vector<const FoundJob*>> machines;
-  for (const FoundJob& job : jobs) {
+  for (const FoundJob& job : jobs)
     if (job.timed) machines[identity_of(job.result)].push_back(&job);
-  }
   if (machines.size() < 2) return;
   std::string list;
-  for (const auto& [identity, of_it] : machines) {
+  for (const auto& [identity, of_it] : machines)
     list += fmt::format("{}{} jobs ({} and others) on {}", list.empty() ? "" : "; ", of_it.size(),
                         of_it.front()->path, identity);
-  }
   throw std::invalid_argument(
       fmt::format("times of {} machines or builds do not mix: {} (--accuracy-only merges what does not "
                   "depend on them, --machine takes those of one)",
@@ -109,7 +106,7 @@ std::vector<FoundJob> in_order(std::vector<FoundJob> jobs, const std::optional<M
     expect_all_of(positions, jobs);
   }
   const auto position_of = [&](const FoundJob& job) { return manifest ? positions.at(job.result.id) : 0; };
-  std::sort(jobs.begin(), jobs.end(), [&](const FoundJob& a, const FoundJob& b) {
+  std::ranges::sort(jobs, [&](const FoundJob& a, const FoundJob& b) {
     return std::pair(position_of(a), sorting_key(a)) < std::pair(position_of(b), sorting_key(b));
   });
   const auto same = [](const FoundJob& a, const FoundJob& b) {
@@ -120,10 +117,9 @@ std::vector<FoundJob> in_order(std::vector<FoundJob> jobs, const std::optional<M
   for (const FoundJob& job : jobs) {
     if (!job.timed) continue;
     const auto [other, first] = timed.emplace(job.result.id, &job);
-    if (!first) {
+    if (!first)
       throw std::invalid_argument(
           fmt::format("job {} was timed twice: {} and {}", job.result.id, other->second->path, job.path));
-    }
   }
   return jobs;
 }

@@ -29,10 +29,9 @@ double parse_min_time(const std::string& name, const std::string& value) {
   const std::string_view number =
       std::string_view(value).substr(0, value.ends_with('s') ? value.size() - 1 : value.size());
   const auto seconds = support::parse_number(number);
-  if (!seconds || !(*seconds > 0) || *seconds > max_repetition_s) {
+  if (!seconds || !(*seconds > 0) || *seconds > max_repetition_s)
     throw support::bad_value(name, value,
                              fmt::format("a time in seconds, above 0 and at most {}", max_repetition_s));
-  }
   return *seconds;
 }
 
@@ -58,14 +57,12 @@ bool is_of_output(BenchmarkFlags& flags, const std::string& name, const std::str
       throw std::invalid_argument("--benchmark_out needs a file: --benchmark_out=FILE");
     flags.out = value;
   } else if (name == "--benchmark_out_format") {
-    if (value != "json") {
+    if (value != "json")
       throw support::bad_value("--benchmark_out_format", value, "json; --out DIR writes results.csv");
-    }
   } else if (name == "--benchmark_format") {
-    if (value != "console") {
+    if (value != "console")
       throw support::bad_value("--benchmark_format", value,
                                "console; --benchmark_out=FILE writes JSON, --out DIR results.csv");
-    }
   } else {
     return false;
   }
@@ -97,14 +94,12 @@ BenchmarkFlags parse_benchmark_flags(const std::vector<std::string>& arguments) 
   BenchmarkFlags flags;
   flags.wanted = [](const std::string&) { return true; };
   for (const std::string& argument : arguments) {
-    if (!argument.starts_with("--benchmark_")) {
+    if (!argument.starts_with("--benchmark_"))
       throw std::invalid_argument(fmt::format("unknown argument \"{}\"", argument));
-    }
     take(flags, argument);
   }
-  for (const std::string& unknown : workers::initialize_throughput(flags.forwarded)) {
+  for (const std::string& unknown : workers::initialize_throughput(flags.forwarded))
     throw std::invalid_argument(fmt::format("Google Benchmark does not know \"{}\"", unknown));
-  }
   return flags;
 }
 

@@ -121,13 +121,12 @@ std::string complaint_about_command(const CLI::App& program) {
 
 /// A command that takes a mesh alone says so of a scene, not only that it knows no such argument.
 std::string complaint_about_arguments(const std::string& error, const ProgramContext& context) {
-  for (const std::string_view of_scenes : {"--scene", "--poses", "--package"}) {
+  for (const std::string_view of_scenes : {"--scene", "--poses", "--package"})
     if (error.find(of_scenes) != std::string::npos && error.find("not expected") != std::string::npos &&
         context.argc > 1)
       return fmt::format(
           "{} takes a mesh alone: {} is of query, verify, bench, servo, gate and choose (touchmark --help)",
           context.argv[1], of_scenes);
-  }
   return fmt::format("{} (touchmark --help)", error);
 }
 

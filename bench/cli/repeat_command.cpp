@@ -12,7 +12,7 @@ namespace touchmark::bench::cli {
 std::string repeat_command(const contestants::Selectors& selectors, const std::string& mesh,
                            const std::vector<std::string>& trajectories, const workload::Workload& workload,
                            const measurement::ResultRow& row) {
-  const auto found = std::find(workload.trajectories.begin(), workload.trajectories.end(), row.trajectory);
+  const auto found = std::ranges::find(workload.trajectories, row.trajectory);
   if (found == workload.trajectories.end()) return "";
   const auto trace = static_cast<std::size_t>(found - workload.trajectories.begin());
   const std::string where =

@@ -34,9 +34,8 @@ constexpr std::string_view refusal_mark = "refused: ";
 }
 
 void check_it_answers(const workers::Built& built, workload::Query query, const std::string& contestant) {
-  for (const workload::Query known : built.queries) {
+  for (const workload::Query known : built.queries)
     if (known == query) return;
-  }
   throw std::invalid_argument(
       fmt::format("{} does not answer --query {}", contestant, workload::name_of(query)));
 }
@@ -45,10 +44,9 @@ std::string rows_of_step(const contestants::Roster& roster, const workload::Work
                          const workers::WorkerOptions& workers, const contestants::ContestantSpec& spec,
                          const workers::Task& task, std::size_t step, SessionBefore session) {
   const std::vector<workload::Step>& trace = workload.traces[task.trace];
-  if (step >= trace.size()) {
+  if (step >= trace.size())
     throw std::invalid_argument(
         fmt::format("--step \"{}\" is none of the {} steps, which begin at 0", step, trace.size()));
-  }
   // No later step: it might be one that the contestant does not survive.
   workload::Workload until = workload;
   until.trajectories = {workload.trajectories[task.trace]};
@@ -72,11 +70,10 @@ std::string rows_of_step(const contestants::Roster& roster, const workload::Work
     explain(failure, spec.text());
   }
   const bool wants_fresh = session == SessionBefore::fresh;
-  if (replayed != fresh) {
+  if (replayed != fresh)
     fmt::print(stderr, "touchmark: {} answers otherwise with {}: {}", spec.text(),
                wants_fresh ? "the session replayed from the start" : "a fresh session",
                wants_fresh ? replayed : fresh);
-  }
   return results::answer_header(task.query, columns) + (wants_fresh ? fresh : replayed);
 }
 

@@ -21,10 +21,9 @@ workers::WorkerOptions worker_options(const WorkerSelectors& selectors) {
   if (selectors.timeout.empty()) return options;
   constexpr double max_s = 86400;
   const std::optional<double> seconds = support::parse_number(selectors.timeout);
-  if (!seconds || !(*seconds > 0) || *seconds > max_s) {
+  if (!seconds || !(*seconds > 0) || *seconds > max_s)
     throw support::bad_value("--timeout", selectors.timeout,
                              fmt::format("a time in seconds, above 0 and at most {}", max_s));
-  }
   options.build_timeout = options.request_timeout =
       std::chrono::milliseconds(static_cast<std::chrono::milliseconds::rep>(*seconds * 1000) + 1);
   return options;

@@ -30,9 +30,8 @@ bool all_chosen(std::string_view conditions, const OptionValues& values) {
     const std::size_t equals = pair.find('=');
     const bool is_other = equals != std::string_view::npos && equals > 0 && pair[equals - 1] == '!';
     const auto chosen = values.all().find(std::string(pair.substr(0, is_other ? equals - 1 : equals)));
-    if (equals == std::string_view::npos || chosen == values.all().end()) {
+    if (equals == std::string_view::npos || chosen == values.all().end())
       throw std::invalid_argument(fmt::format("\"{}\" is not an option and its value", pair));
-    }
     if ((chosen->second != pair.substr(equals + 1)) != is_other) return false;
     if (end == std::string_view::npos) return true;
     conditions.remove_prefix(end + with.size());
@@ -51,9 +50,8 @@ std::optional<Guarantee> claimed_guarantee(const std::string& accuracy, const Op
     }
     part.remove_prefix(std::min(part.find_first_not_of(' '), part.size()));
     const std::size_t colon = part.find(": ");
-    if (colon == std::string_view::npos) {
+    if (colon == std::string_view::npos)
       throw std::invalid_argument(fmt::format("\"{}\" is not KEY=VALUE: GUARANTEE", part));
-    }
     if (all_chosen(part.substr(0, colon), values)) claimed = guarantee_named(part.substr(colon + 2));
   }
   return claimed;
@@ -70,7 +68,7 @@ double OptionValues::length(const std::string& key, const TriangleMesh& mesh) co
 }
 
 bool ContestantInfo::answers(workload::Query query) const noexcept {
-  return std::find(queries.begin(), queries.end(), query) != queries.end();
+  return std::ranges::find(queries, query) != queries.end();
 }
 
 }  // namespace touchmark::bench::contestants

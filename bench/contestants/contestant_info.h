@@ -68,7 +68,7 @@ struct LibraryClass {
   std::string header, name;
   std::vector<std::string> lacks = {};  ///< keys of options that this class has no member for
 
-  bool has(const std::string& key) const { return std::find(lacks.begin(), lacks.end(), key) == lacks.end(); }
+  bool has(const std::string& key) const { return std::ranges::find(lacks, key) == lacks.end(); }
 };
 
 /// A name of a detector that went out. Another answers to it.

@@ -273,13 +273,12 @@ class ContestantOf final : public Contestant {
   void with_query(workload::Query query, Visitor&& visit) noexcept {
     using Steps = std::span<const workload::Step>;
     if constexpr (AnswersTouches<D>) {
-      if (query == workload::Query::touches) {
+      if (query == workload::Query::touches)
         return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
           workload::Answer answer;
           answer.found = detector.touches(steps[i].probe, session) ? 1 : 0;
           return about_body(answer, session);
         });
-      }
     }
     if constexpr (AnswersNearest<D>) {
       if (query == workload::Query::nearest) {
@@ -298,18 +297,16 @@ class ContestantOf final : public Contestant {
       }
     }
     if constexpr (AnswersSweep<D>) {
-      if (query == workload::Query::sweep) {
+      if (query == workload::Query::sweep)
         return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
           return answer_of(detector.first_hit(sweep_at(steps, i), session), session);
         });
-      }
     }
     if constexpr (AnswersMoving<D>) {
-      if (query == workload::Query::moving) {
+      if (query == workload::Query::moving)
         return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
           return answer_of(detector.first_hit_moving(sweep_at(steps, i), session), session);
         });
-      }
     }
     assert(!"the query must be one that answers(query) affirms");
   }

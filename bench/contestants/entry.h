@@ -117,9 +117,8 @@ OptionInfo choice(std::string key, const Names<Value>& names, std::string summar
 /// Returns what the chosen name stands for. The roster has checked that it is one of the names.
 template <class Value>
 Value chosen(const OptionValues& values, const std::string& key, const Names<Value>& names) {
-  for (const auto& [name, value] : names) {
+  for (const auto& [name, value] : names)
     if (name == values.text(key)) return value;
-  }
   return names.front().second;
 }
 

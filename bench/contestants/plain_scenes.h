@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "baselines/posed.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/rival_scene.h"
 #include "bench/contestants/scene_player.h"
 #include "core/aabb_tree/aabb_tree.h"
@@ -102,7 +103,7 @@ class MergedScene {
   }
 
   BodyContact owned(Contact contact) const noexcept {
-    const auto after = std::upper_bound(first_.begin(), first_.end(), contact.triangle);
+    const auto after = std::ranges::upper_bound(first_, contact.triangle);
     const auto body = static_cast<std::uint32_t>(after - first_.begin() - 1);
     contact.triangle = ids_[contact.triangle];
     return {{body, 0}, contact};
@@ -117,11 +118,7 @@ class MergedScene {
 /// Returns the entry of such a scene over one of our detectors, which its option `of` names.
 template <template <class> class SceneOf>
 ContestantInfo plain_scene_entry(std::string name, int rank, std::string summary) {
-  ContestantInfo info;
-  info.name = std::move(name);
-  info.rank = rank;
-  info.summary = std::move(summary);
-  info.accuracy = "exact";
+  ContestantInfo info = introduced(std::move(name), rank, std::move(summary), "exact");
   info.queries = queries_of<SphereCluster>();
   info.options = {{"of",
                    OptionKind::choice,

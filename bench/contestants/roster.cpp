@@ -19,12 +19,11 @@ namespace touchmark::bench::contestants {
 namespace {
 
 const OptionInfo& find_option(const ContestantInfo& contestant, std::string_view key) {
-  const auto found = std::find_if(contestant.options.begin(), contestant.options.end(),
-                                  [&](const OptionInfo& option) { return option.key == key; });
+  const auto found =
+      std::ranges::find_if(contestant.options, [&](const OptionInfo& option) { return option.key == key; });
   if (found != contestant.options.end()) return *found;
-  if (contestant.options.empty()) {
+  if (contestant.options.empty())
     throw std::invalid_argument(fmt::format("{} has no option \"{}\": it takes none", contestant.name, key));
-  }
   std::vector<std::string> keys;
   for (const OptionInfo& option : contestant.options) keys.push_back(option.key);
   throw std::invalid_argument(
@@ -35,7 +34,7 @@ const OptionInfo& find_option(const ContestantInfo& contestant, std::string_view
 std::string complaint(const OptionInfo& option, std::string_view value) {
   switch (option.kind) {
     case OptionKind::choice:
-      if (std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end()) return "";
+      if (std::ranges::find(option.choices, value) != option.choices.end()) return "";
       return fmt::format("none of {}", fmt::join(option.choices, ", "));
     case OptionKind::number:
       return support::parse_number(value).value_or(-1) >= 0 ? "" : "not a number of 0 or more";
@@ -66,9 +65,8 @@ std::map<std::string, std::string> parse_options(const ContestantInfo& contestan
   std::map<std::string, std::string> written;
   for (const std::string_view pair : support::split(text, ',')) {
     const std::size_t equals = pair.find('=');
-    if (equals == std::string_view::npos) {
+    if (equals == std::string_view::npos)
       throw std::invalid_argument(fmt::format("{}: \"{}\" is not key=value", contestant.name, pair));
-    }
     if (former != nullptr && std::ranges::count(former->dead_options, pair.substr(0, equals)) > 0) {
       dead.emplace_back(pair.substr(0, equals));
       continue;
@@ -76,9 +74,8 @@ std::map<std::string, std::string> parse_options(const ContestantInfo& contestan
     const OptionInfo& option = find_option(contestant, pair.substr(0, equals));
     const std::string_view value = pair.substr(equals + 1);
     check_value(contestant, option, value);
-    if (!written.emplace(option.key, value).second) {
+    if (!written.emplace(option.key, value).second)
       throw std::invalid_argument(fmt::format("{}: {} is given twice", contestant.name, option.key));
-    }
   }
   return written;
 }
@@ -105,7 +102,7 @@ void Roster::add(ContestantInfo contestant) {
 }
 
 const ContestantInfo& Roster::find(const std::string& name) const {
-  const auto found = std::find_if(contestants_.begin(), contestants_.end(), [&](const ContestantInfo& info) {
+  const auto found = std::ranges::find_if(contestants_, [&](const ContestantInfo& info) {
     return info.name == name || former_name(info, name) != nullptr;
   });
   if (found != contestants_.end()) return *found;

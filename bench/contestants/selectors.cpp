@@ -59,11 +59,10 @@ CheckedSelectors check(const Selectors& selectors, const Roster& roster, Variety
   selection.unit = checked_unit(selectors.unit);
   selection.seed = support::checked_seed(selectors.seed);
   selection.contestants = roster.parse_all(selectors.detectors);
-  if (selection.contestants.empty()) {
+  if (selection.contestants.empty())
     selection.contestants = !selectors.scene.empty()  ? roster.forms(&Forms::scenes)
                             : variety == Variety::one ? roster.default_set()
                                                       : roster.thorough_set();
-  }
   return selection;
 }
 

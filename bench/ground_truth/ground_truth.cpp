@@ -75,11 +75,9 @@ template <class Truth, class Question>
 void GroundTruths::solve(const std::vector<workload::StepRange>& ranges, Solved<Truth>& solved,
                          const Question& question) {
   std::vector<std::size_t> unknown;
-  for (const workload::StepRange& range : ranges) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
+  for (const workload::StepRange& range : ranges)
+    for (std::size_t i = range.begin; i < range.end; ++i)
       if (!solved.known[i]) unknown.push_back(i);
-    }
-  }
   for (std::size_t begin = 0; begin < unknown.size(); begin += solved_at_once) {
     support::check_for_interrupt();
     const std::span<const std::size_t> some =

@@ -88,9 +88,8 @@ std::string charges_of(const oracle::ErrorCounts& counts) {
                                                                     {counts.wrong_side, "side"},
                                                                     {counts.malformed, "no number"}}};
   std::vector<std::string> charges;
-  for (const auto& [count, name] : kinds) {
+  for (const auto& [count, name] : kinds)
     if (count > 0) charges.push_back(fmt::format("{} {}", count, name));
-  }
   return fmt::format("{}", fmt::join(charges, ", "));
 }
 

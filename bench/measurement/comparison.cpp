@@ -85,17 +85,15 @@ Comparison::Comparison(const contestants::Roster& roster, const workload::Worklo
       seed_(seed),
       arena_(workload, workers, steps_for_cold(effort)),
       workload_truths_(workload) {
-  for (const contestants::ContestantSpec& spec : contestants) {
+  for (const contestants::ContestantSpec& spec : contestants)
     processes_.emplace_back(arena_, spec, roster.find(spec.name).worker_program(spec.values));
-  }
   rounded_meshes_.resize(processes_.size());
   truths_.resize(workload.traces.size());
 }
 
 void Comparison::skip(const contestants::ContestantSpec& spec, const std::string& status) {
-  for (workers::ContestantProcess& process : processes_) {
+  for (workers::ContestantProcess& process : processes_)
     if (process.spec().text() == spec.text()) process.mark_failed(status);
-  }
 }
 
 std::unique_ptr<ground_truth::TraceTruths> Comparison::truths_of(std::size_t trace) {

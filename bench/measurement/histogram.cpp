@@ -44,9 +44,8 @@ std::int64_t LatencyHistogram::percentile(double fraction) const noexcept {
 
 std::vector<LatencyHistogram::Bucket> LatencyHistogram::buckets() const {
   std::vector<Bucket> filled;
-  for (std::size_t i = 0; i < counts_.size(); ++i) {
+  for (std::size_t i = 0; i < counts_.size(); ++i)
     if (counts_[i] > 0) filled.push_back({std::min(end_of(i, bits), max_), counts_[i]});
-  }
   return filled;
 }
 

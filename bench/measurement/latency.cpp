@@ -42,23 +42,22 @@ DeadlineMisses count_misses(std::span<const double> ns, const std::vector<worklo
 
 LatencySummary summarize_latency(std::span<const double> ns, const std::vector<workload::StepRange>& ranges) {
   std::vector<double> sorted(ns.begin(), ns.end());
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   LatencySummary summary;
   summary.p50 = percentile(sorted, 0.5);
   summary.p90 = percentile(sorted, 0.9);
   summary.p99 = percentile(sorted, 0.99);
   summary.p999 = percentile(sorted, 0.999);
   summary.max = sorted.back();
-  for (std::size_t i = 0; i < deadlines_hz.size(); ++i) {
+  for (std::size_t i = 0; i < deadlines_hz.size(); ++i)
     summary.deadlines[i] = count_misses(ns, ranges, 1e9 / deadlines_hz[i]);
-  }
   summary.p999_bounds = bounds(sorted, 0.999);
   return summary;
 }
 
 ColdSummary summarize_cold(std::span<const double> ns) {
   std::vector<double> sorted(ns.begin(), ns.end());
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   return {sorted.size(), percentile(sorted, 0.5), percentile(sorted, 0.99), percentile(sorted, 0.999),
           sorted.back(), bounds(sorted, 0.5),     bounds(sorted, 0.99)};
 }

@@ -60,7 +60,7 @@ void Measurement::begin() {
   row_.build_ms = built.build_ms;
   row_.bytes = built.bytes;
   row_.heap_bytes = built.heap_bytes;
-  if (std::find(built.queries.begin(), built.queries.end(), task_.query) == built.queries.end()) {
+  if (std::ranges::find(built.queries, task_.query) == built.queries.end()) {
     row_.status = "unsupported";
     return;
   }
@@ -213,7 +213,7 @@ ResultRow Measurement::row() {
   std::size_t samples = 0;
   for (const std::vector<double>& some : samples_) samples += some.size();
   row_.throughput = ThroughputResult{support::median(repetitions_ns_),
-                                     *std::min_element(repetitions_ns_.begin(), repetitions_ns_.end()),
+                                     *std::ranges::min_element(repetitions_ns_),
                                      median_absolute_deviation(repetitions_ns_),
                                      first_pass_ns_,
                                      support::median(repetitions_cpu_ns_),

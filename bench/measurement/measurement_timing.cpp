@@ -98,9 +98,8 @@ void Measurement::count_lines() {
 std::vector<double> Measurement::in_ns(std::span<const std::uint64_t> ticks) const {
   std::vector<double> ns;
   ns.reserve(ticks.size());
-  for (const std::uint64_t step : ticks) {
+  for (const std::uint64_t step : ticks)
     ns.push_back(static_cast<double>(step) * process_.opened().ns_per_tick);
-  }
   return ns;
 }
 

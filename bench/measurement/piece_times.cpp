@@ -93,7 +93,7 @@ UndisturbedTime PieceTimes::estimate(std::uint64_t seed) const {
     }
     found.push_back(total(of_strata));
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   const double ns = total(means(low_quantiles(all_rounds), all_pieces));
   return {ns, std::min(ns, found[beyond]), std::max(ns, found[resamples - 1 - beyond])};
 }

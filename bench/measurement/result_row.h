@@ -61,7 +61,7 @@ struct WorkResult {
 /// Summarizes the work of at least one step; `total` is that of all of them.
 inline WorkResult summarize_work(std::span<const std::uint64_t> work, const Work& total) {
   return {static_cast<double>(total.total()) / static_cast<double>(work.size()),
-          *std::max_element(work.begin(), work.end()), total};
+          *std::ranges::max_element(work), total};
 }
 
 /// Empty is what was not measured, because the contestant did not come so far.

@@ -120,13 +120,10 @@ TriangleMesh torus(std::uint32_t around, std::uint32_t along) {
 TriangleMesh thin_plate() {
   constexpr std::uint32_t cells = 32, row = cells + 1;
   Surface surface;
-  for (const double z : {-thin_plate_thickness / 2, thin_plate_thickness / 2}) {
-    for (std::uint32_t i = 0; i < row; ++i) {
-      for (std::uint32_t j = 0; j < row; ++j) {
+  for (const double z : {-thin_plate_thickness / 2, thin_plate_thickness / 2})
+    for (std::uint32_t i = 0; i < row; ++i)
+      for (std::uint32_t j = 0; j < row; ++j)
         surface.add({static_cast<double>(i) / cells - 0.5, static_cast<double>(j) / cells - 0.5, z});
-      }
-    }
-  }
   const auto below = [](std::uint32_t i, std::uint32_t j) { return i * row + j; };
   const auto above = [&](std::uint32_t i, std::uint32_t j) { return row * row + below(i, j); };
   for (std::uint32_t i = 0; i < cells; ++i) {
@@ -151,11 +148,9 @@ TriangleMesh single_triangle() {
 
 TriangleMesh cube() {
   Surface surface;
-  for (const double z : {-0.5, 0.5}) {
-    for (const double y : {-0.5, 0.5}) {
+  for (const double z : {-0.5, 0.5})
+    for (const double y : {-0.5, 0.5})
       for (const double x : {-0.5, 0.5}) surface.add({x, y, z});
-    }
-  }
   surface.quad(0, 2, 3, 1);
   surface.quad(4, 5, 7, 6);
   surface.quad(0, 1, 5, 4);

@@ -44,10 +44,9 @@ void measure_triangles(const TriangleMesh& mesh, MeshReport& report) {
 
 std::size_t count_used(const TriangleMesh& mesh, const WeldedMesh& welded) {
   std::vector<bool> used(welded.nodes.size());
-  for (const TriangleMesh::Corners& corners : mesh.triangles()) {
+  for (const TriangleMesh::Corners& corners : mesh.triangles())
     for (const std::uint32_t vertex : corners) used[welded.node_of[vertex]] = true;
-  }
-  return static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+  return static_cast<std::size_t>(std::ranges::count(used, true));
 }
 
 void measure_edges(const WeldedMesh& welded, MeshReport& report) {
@@ -58,8 +57,7 @@ void measure_edges(const WeldedMesh& welded, MeshReport& report) {
     ++report.edges;
     if (sides.size() == 1) ++report.boundary_edges;
     if (sides.size() > 2) ++report.non_manifold_edges;
-    const auto forward =
-        std::count_if(sides.begin(), sides.end(), [](const auto& side) { return side.forward; });
+    const auto forward = std::ranges::count_if(sides, [](const auto& side) { return side.forward; });
     if (forward > 1 || static_cast<std::ptrdiff_t>(sides.size()) - forward > 1) report.oriented = false;
 
     const double length = (welded.nodes[sides[0].high] - welded.nodes[sides[0].low]).stableNorm();

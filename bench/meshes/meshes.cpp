@@ -36,10 +36,9 @@ struct Request {
 std::uint64_t whole_number(const Request& request, std::string_view text, std::string_view what,
                            std::uint64_t least, std::uint64_t most) {
   const std::optional<std::uint64_t> value = support::parse_count(text);
-  if (!value || *value < least || *value > most) {
+  if (!value || *value < least || *value > most)
     throw request.refusal(
         fmt::format("{} \"{}\" is not a whole number from {} to {}", what, text, least, most));
-  }
   return *value;
 }
 
@@ -82,9 +81,8 @@ TriangleMesh make_torus(const Request& request) {
   const std::uint64_t around = whole_number(request, text.substr(0, cross), "N", 3, most);
   const std::uint64_t along = whole_number(request, text.substr(cross + 1), "M", 3, most);
   const std::uint64_t triangles = 2 * around * along;
-  if (triangles > max_generated_triangles) {
+  if (triangles > max_generated_triangles)
     throw request.refusal(fmt::format("{} triangles, more than {}", triangles, max_generated_triangles));
-  }
   require_memory_for(request, triangles, triangles / 2);
   return torus(static_cast<std::uint32_t>(around), static_cast<std::uint32_t>(along));
 }
@@ -110,18 +108,16 @@ constexpr const char* bunny_files[] = {"/usr/share/glmark2/models/bunny.obj",
 
 fs::path bunny_file() {
   std::error_code ignored;
-  for (const char* file : bunny_files) {
+  for (const char* file : bunny_files)
     if (fs::exists(file, ignored)) return file;
-  }
   return {};
 }
 
 TriangleMesh make_bunny(const Request& request) {
   if (request.parameter) throw request.refusal("bunny takes no parameter");
   const fs::path file = bunny_file();
-  if (file.empty()) {
+  if (file.empty())
     throw request.refusal(fmt::format("{} is not there; install the package glmark2-data", bunny_files[0]));
-  }
   return load_file(file).mesh;
 }
 
@@ -134,10 +130,9 @@ TriangleMesh make_dragon(const Request& request) {
   const std::uint64_t resolution = whole_number(request, request.parameter.value_or("1"), "resolution", 1, 4);
   const fs::path file = dragon_file(resolution);
   std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
+  if (!fs::exists(file, ignored))
     throw request.refusal(
         fmt::format("{} is not there; fetch it with scripts/setup --dragon", file.string()));
-  }
   return load_file(file).mesh;
 }
 
@@ -191,10 +186,8 @@ struct Modifier {
 
 double finite_number(const Request& request, std::string_view modifier, std::string_view text) {
   const std::optional<double> value = support::parse_number(text);
-  if (!value || *value > std::numeric_limits<double>::max() ||
-      *value < std::numeric_limits<double>::lowest()) {
+  if (!value || *value > std::numeric_limits<double>::max() || *value < std::numeric_limits<double>::lowest())
     throw request.refusal(fmt::format("@{} \"{}\" is not a finite number", modifier, text));
-  }
   return *value;
 }
 
@@ -207,9 +200,8 @@ std::optional<Modifier> parse_modifier(const Request& request, std::string_view 
     if (!(factor > 0)) throw request.refusal(fmt::format("@scale \"{}\" is not above 0", factor));
     return Modifier{Modifier::Kind::scale, factor};
   }
-  if (text.starts_with(offset)) {
+  if (text.starts_with(offset))
     return Modifier{Modifier::Kind::offset, finite_number(request, "offset", text.substr(offset.size()))};
-  }
   return std::nullopt;
 }
 
@@ -241,11 +233,10 @@ TriangleMesh modified(TriangleMesh mesh, const Modifier& modifier) {
   if (request.name == "-")
     throw request.refusal("standard input is not read, as no ending names its format; write it to a file");
   const std::size_t at = request.name.rfind('@');
-  if (at != std::string::npos) {
+  if (at != std::string::npos)
     throw request.refusal(
         fmt::format("no file has this name, and \"{}\" is no modifier (@scale=, @offset=, @normalize)",
                     request.name.substr(at)));
-  }
   std::vector<std::string> known;
   for (const NamedMesh& named : named_meshes()) known.push_back(name_in(named.name));
   throw request.refusal(
@@ -257,12 +248,10 @@ ImportedMesh load_unmodified(Request& request) {
   const std::size_t colon = request.name.find(':');
   const std::string name = request.name.substr(0, colon);
   if (colon != std::string::npos) request.parameter = request.name.substr(colon + 1);
-  for (const MeshKind& kind : mesh_kinds) {
+  for (const MeshKind& kind : mesh_kinds)
     if (name_in(kind.form) == name) return {{kind.make(request), "", ""}};
-  }
-  for (const SizedMesh& sized : sized_meshes()) {
+  for (const SizedMesh& sized : sized_meshes())
     if (name_in(sized.form) == name) return {{make_sized(sized, request), "", ""}};
-  }
   std::error_code ignored;
   const auto has = [&](const char* any) { return request.name.find_first_of(any) != std::string::npos; };
   if ((has("/.") && !has("@")) || fs::exists(request.name, ignored)) return load_file(request.name);
@@ -283,9 +272,8 @@ fs::path data_folder() {
 
 std::vector<NamedMesh> named_meshes() {
   std::vector<NamedMesh> infos;
-  for (const MeshKind& kind : mesh_kinds) {
+  for (const MeshKind& kind : mesh_kinds)
     infos.push_back({kind.form, kind.description, kind.example, kind.available()});
-  }
   for (const SizedMesh& sized : sized_meshes())
     infos.push_back({sized.form, sized.description, sized.example});
   return infos;

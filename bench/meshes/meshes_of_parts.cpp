@@ -119,12 +119,10 @@ TriangleMesh crates(std::uint64_t triangles) {
   Surface surface;
   const std::uint32_t row = whole_root(triangles / box_triangles, 3);
   const double edge = 1.0 / row;
-  for (std::uint32_t i = 0; i < row; ++i) {
-    for (std::uint32_t j = 0; j < row; ++j) {
+  for (std::uint32_t i = 0; i < row; ++i)
+    for (std::uint32_t j = 0; j < row; ++j)
       for (std::uint32_t k = 0; k < row; ++k)
         add_box(surface, {i * edge, j * edge, k * edge}, {(i + 1) * edge, (j + 1) * edge, (k + 1) * edge});
-    }
-  }
   return std::move(surface).mesh();
 }
 

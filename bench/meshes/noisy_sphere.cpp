@@ -61,9 +61,8 @@ class NoisySphere {
     for (std::size_t ring = 0; ring < sizes_.size(); ++ring) {
       const SinCos latitude =
           portable_sincos(static_cast<double>(ring + 1) / static_cast<double>(2 * sizes_.size() + 2));
-      for (std::uint32_t i = 0; i < sizes_[ring]; ++i) {
+      for (std::uint32_t i = 0; i < sizes_[ring]; ++i)
         add(latitude, portable_sincos(static_cast<double>(i) / static_cast<double>(sizes_[ring])));
-      }
     }
     add({-1, 0}, {1, 0});
     cap_at_first_pole();

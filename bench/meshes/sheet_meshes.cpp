@@ -39,11 +39,10 @@ TriangleMesh sheets(std::uint64_t triangles) {
   constexpr double apart = 1e-4;
   const std::uint32_t squares = squares_for(static_cast<double>(triangles) / count);
   Surface surface;
-  for (int sheet = 0; sheet < count; ++sheet) {
+  for (int sheet = 0; sheet < count; ++sheet)
     add_patch(surface, squares, squares, [&](double u, double v) {
       return Vec3(u, v, 0.1 * rough({u, v, 0}, 2) + sheet * apart);
     });
-  }
   return std::move(surface).mesh();
 }
 
@@ -61,11 +60,9 @@ TriangleMesh foam(std::uint64_t triangles) {
   const auto walls = [](std::uint64_t n) { return 3 * n * n * (n + 1); };
   while (2 * walls(row + 1) <= triangles) ++row;
   Surface surface;
-  for (std::uint32_t i = 0; i <= row; ++i) {
-    for (std::uint32_t j = 0; j <= row; ++j) {
+  for (std::uint32_t i = 0; i <= row; ++i)
+    for (std::uint32_t j = 0; j <= row; ++j)
       for (std::uint32_t k = 0; k <= row; ++k) surface.add(foam_corner(row, i, j, k));
-    }
-  }
   const auto at = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     return (i * (row + 1) + j) * (row + 1) + k;
   };

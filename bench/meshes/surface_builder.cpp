@@ -24,10 +24,9 @@ Vec3 across(const Vec3& direction, const Vec3& before) {
 
 void add_box(Surface& surface, const Vec3& low, const Vec3& high) {
   const auto first = static_cast<std::uint32_t>(surface.vertices.size());
-  for (std::uint32_t i = 0; i < 8; ++i) {
+  for (std::uint32_t i = 0; i < 8; ++i)
     surface.add({(i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(),
                  (i & 4) != 0 ? high.z() : low.z()});
-  }
   constexpr std::uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                          {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   for (const auto& face : faces)
@@ -49,10 +48,9 @@ void add_tube(Surface& surface, const std::vector<Vec3>& line, double radius, st
     }
   }
   const auto at = [&](std::uint32_t i, std::uint32_t k) { return first + i * sides + k % sides; };
-  for (std::uint32_t i = 0; i + 1 < points; ++i) {
+  for (std::uint32_t i = 0; i + 1 < points; ++i)
     for (std::uint32_t k = 0; k < sides; ++k)
       surface.quad(at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k));
-  }
   const std::uint32_t begin = surface.add(line.front()), end = surface.add(line.back());
   for (std::uint32_t k = 0; k < sides; ++k) {
     surface.triangles.push_back({begin, at(0, k + 1), at(0, k)});

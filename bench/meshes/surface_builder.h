@@ -42,15 +42,13 @@ void add_box(Surface& surface, const Vec3& low, const Vec3& high);
 template <class Place>
 void add_patch(Surface& surface, std::uint32_t across, std::uint32_t along, Place place) {
   const auto first = static_cast<std::uint32_t>(surface.vertices.size());
-  for (std::uint32_t i = 0; i <= across; ++i) {
+  for (std::uint32_t i = 0; i <= across; ++i)
     for (std::uint32_t j = 0; j <= along; ++j)
       surface.add(place(static_cast<double>(i) / across, static_cast<double>(j) / along));
-  }
   const auto at = [&](std::uint32_t i, std::uint32_t j) { return first + i * (along + 1) + j; };
-  for (std::uint32_t i = 0; i < across; ++i) {
+  for (std::uint32_t i = 0; i < across; ++i)
     for (std::uint32_t j = 0; j < along; ++j)
       surface.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-  }
 }
 
 /// Adds a closed tube of so many sides (at least 3) round the line through two or more points, its ends fans:

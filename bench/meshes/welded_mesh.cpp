@@ -18,7 +18,7 @@ WeldedMesh::WeldedMesh(const TriangleMesh& mesh) {
   const std::span<const Vec3> vertices = mesh.vertices();
   std::vector<std::uint32_t> order(vertices.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
     return precedes(vertices[a], vertices[b]) || (vertices[a] == vertices[b] && a < b);
   });
   node_of.resize(vertices.size());
@@ -35,7 +35,7 @@ WeldedMesh::WeldedMesh(const TriangleMesh& mesh) {
       if (a != b) sides.push_back({std::min(a, b), std::max(a, b), t, a < b});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
+  std::ranges::sort(sides, [](const TriangleSide& a, const TriangleSide& b) {
     return std::tie(a.low, a.high, a.triangle, a.forward) < std::tie(b.low, b.high, b.triangle, b.forward);
   });
 }

@@ -28,7 +28,7 @@ ErrorCounts& ErrorCounts::operator+=(const ErrorCounts& other) noexcept {
 
 void Charges::merge(const Charges& others, std::size_t first_step) {
   for (const Charge& one : others.kept_) kept_.push_back({first_step + one.step, one.counts});
-  std::sort(kept_.begin(), kept_.end(), [](const Charge& a, const Charge& b) { return a.step < b.step; });
+  std::ranges::sort(kept_, [](const Charge& a, const Charge& b) { return a.step < b.step; });
   if (kept_.size() > max_) kept_.resize(max_);
 }
 

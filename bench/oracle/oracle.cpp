@@ -33,7 +33,7 @@ double largest_difference(const Vec3& point, const Triangle& triangle) noexcept 
 bool surely_farther(const Triangle& triangle, const Vec3& witness, const Vec3& point) noexcept {
   constexpr double roundings = 8 * unit_roundoff;  // two differences, three products and sums, two lengths
   const Vec3 to_point = point - witness;
-  return std::all_of(triangle.begin(), triangle.end(), [&](const Vec3& v) {
+  return std::ranges::all_of(triangle, [&](const Vec3& v) {
     const Vec3 to_corner = v - witness;
     return to_point.dot(to_corner) < -roundings * to_point.norm() * to_corner.norm();
   });
@@ -108,8 +108,7 @@ std::vector<Candidate> Oracle::Structure::candidates(const Vec3& center,
     found.push_back({index, distance.lo});
   });
   std::erase_if(found, [&](const Candidate& candidate) { return candidate.lo > limit; });
-  std::sort(found.begin(), found.end(),
-            [](const Candidate& a, const Candidate& b) { return a.triangle < b.triangle; });
+  std::ranges::sort(found, [](const Candidate& a, const Candidate& b) { return a.triangle < b.triangle; });
   return found;
 }
 
@@ -234,7 +233,7 @@ bool Oracle::segment_comes(const Vec3& from, const Vec3& to, double radius, bool
                              doubtful.push_back(triangle);
                            }
                          });
-  return surely || std::any_of(doubtful.begin(), doubtful.end(), [&](std::uint32_t triangle) {
+  return surely || std::ranges::any_of(doubtful, [&](std::uint32_t triangle) {
            const std::strong_ordering order =
                compare_segment_distance(from, to, triangle_of(mesh(), triangle), radius);
            return nearer ? order < 0 : order <= 0;
@@ -311,7 +310,7 @@ std::vector<std::uint32_t> Oracle::all_within(const Vec3& center, double radius)
                          [&](std::uint32_t triangle) {
                            if (within(triangle, center, radius)) found.push_back(triangle);
                          });
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 

@@ -18,7 +18,7 @@ Interval widened(Interval bounds, double error) noexcept {
 }
 
 bool is_finite(const Triangle& triangle) noexcept {
-  return std::all_of(triangle.begin(), triangle.end(), [](const Vec3& v) { return v.allFinite(); });
+  return std::ranges::all_of(triangle, [](const Vec3& v) { return v.allFinite(); });
 }
 
 }  // namespace

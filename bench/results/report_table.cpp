@@ -256,11 +256,10 @@ std::string verdict(const std::vector<measurement::ResultRow>& rows,
   std::string line = steadiness.conclusive() ? "" : "inconclusive, the control does not tie; ";
   line += fmt::format("fastest exact: {}, {} ns a query [{}, {}] ({} Hz)", best->contestant(),
                       figure(time.ns), figure(time.low), figure(time.high), figure(1e9 / time.ns));
-  for (const measurement::ResultRow& row : rows) {
+  for (const measurement::ResultRow& row : rows)
     if (&row != best && is_beside(row, *best))
       line += fmt::format("; not told from it: {}, {} ns", row.contestant(),
                           figure(row.throughput->undisturbed.ns));
-  }
   if (best->latency) {
     const std::size_t misses = best->latency->deadlines[0].misses;
     line += misses == 0 ? fmt::format("; holds 1 kHz: the slowest of {} steps took {} us", best->steps,

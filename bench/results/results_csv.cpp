@@ -81,8 +81,7 @@ bool is_status(std::string_view text) {
   constexpr std::array words{"ok", "unsupported", "timeout", "checksum mismatch"};
   constexpr std::array beginnings{"refused: ", "crashed:", "skipped: "};
   const auto begins = [&](std::string_view begin) { return text.starts_with(begin) && text != begin; };
-  return std::find(words.begin(), words.end(), text) != words.end() ||
-         std::any_of(beginnings.begin(), beginnings.end(), begins);
+  return std::ranges::find(words, text) != words.end() || std::ranges::any_of(beginnings, begins);
 }
 constexpr Kind row_status{
     &is_status, "ok, unsupported, timeout, checksum mismatch, refused: WHY, skipped: WHY or crashed:HOW"};

@@ -16,13 +16,11 @@ ResultsFolder::ResultsFolder(const std::string& path) : path_(path) {
   std::filesystem::create_directories(path_, error);
   if (std::filesystem::is_directory(path_)) error.clear();
   if (error == std::errc::file_exists || error == std::errc::not_a_directory || path.empty() ||
-      (!error && !std::filesystem::is_directory(path_))) {
+      (!error && !std::filesystem::is_directory(path_)))
     throw std::invalid_argument(fmt::format("--out \"{}\" is not a folder", path));
-  }
   if (error) throw support::ResourceError(fmt::format("cannot create {}: {}", path, error.message()));
-  if (access(path_.c_str(), W_OK | X_OK) != 0) {
+  if (access(path_.c_str(), W_OK | X_OK) != 0)
     throw support::ResourceError(fmt::format("cannot write into {}", path));
-  }
 }
 
 void ResultsFolder::write(const std::string& results_csv) const { write_file("results.csv", results_csv); }

@@ -85,9 +85,8 @@ Json contestants_json(const std::deque<workers::ContestantProcess>& contestants)
 
 Json clock_json(const std::deque<workers::ContestantProcess>& contestants) {
   workers::Opened typical;
-  for (const workers::ContestantProcess& contestant : contestants) {
+  for (const workers::ContestantProcess& contestant : contestants)
     if (contestant.opened().clock_cost_ns > 0) typical = contestant.opened();
-  }
   return {{"name", contestants::TickClock::name},
           {"cost_ns", typical.clock_cost_ns},
           {"ns_per_tick", typical.ns_per_tick},
@@ -115,12 +114,11 @@ Json steadiness_json(const std::vector<measurement::Steadiness>& all) {
                {"query", workload::name_of(one.query)},
                {"disturbed_share", one.disturbed_share},
                {"conclusive", one.conclusive()}};
-    if (one.control) {
+    if (one.control)
       entry["control"] = {{"contestant", one.control->contestant},
                           {"ratio", one.control->ratio},
                           {"ratio_low", one.control->low},
                           {"ratio_high", one.control->high}};
-    }
     json.push_back(std::move(entry));
   }
   return json;

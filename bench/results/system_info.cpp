@@ -65,9 +65,8 @@ std::string machine_fingerprint() {
 std::optional<int> core_for_workers() {
   const std::optional<cpu_set_t> cores = allowed_cores();
   if (!cores || CPU_COUNT(&*cores) < 2) return std::nullopt;
-  for (int core = CPU_SETSIZE - 1; core >= 0; --core) {
+  for (int core = CPU_SETSIZE - 1; core >= 0; --core)
     if (CPU_ISSET(static_cast<std::size_t>(core), &*cores)) return core;
-  }
   return std::nullopt;
 }
 

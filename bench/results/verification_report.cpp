@@ -139,9 +139,8 @@ support::Table verification_table(const std::vector<measurement::ResultRow>& row
 
 std::string list_of_failures(const std::vector<measurement::ResultRow>& rows, std::size_t most) {
   std::vector<const measurement::ResultRow*> failures;
-  for (const measurement::ResultRow& row : rows) {
+  for (const measurement::ResultRow& row : rows)
     if (!without_fault(row)) failures.push_back(&row);
-  }
   // Broken claims first: they are what the exit status is about.
   std::stable_partition(failures.begin(), failures.end(),
                         [](const measurement::ResultRow* row) { return claim_is_broken(*row); });

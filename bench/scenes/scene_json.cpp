@@ -60,16 +60,13 @@ Json parsed(const std::string& text) {
 
 void expect_keys(const Json& object, std::span<const std::string_view> keys) {
   if (!object.is_object()) throw std::invalid_argument("is not an object");
-  for (const auto& [key, value] : object.items()) {
-    if (std::ranges::find(keys, key) == keys.end()) {
+  for (const auto& [key, value] : object.items())
+    if (std::ranges::find(keys, key) == keys.end())
       throw std::invalid_argument(
           fmt::format("unknown key \"{}\"; did you mean {}?", key,
                       support::near_names(key, std::vector<std::string>(keys.begin(), keys.end()))));
-    }
-  }
-  for (const std::string_view key : keys) {
+  for (const std::string_view key : keys)
     if (!object.contains(key)) throw std::invalid_argument(fmt::format("\"{}\" is missing", key));
-  }
 }
 
 std::string text_of(const Json& body, const char* key) {
@@ -84,15 +81,13 @@ template <std::size_t size>
 std::array<double, size> numbers_of(const Json& body, const char* key, const char* what) {
   const Json& list = body[key];
   if (!list.is_array()) throw std::invalid_argument(fmt::format("\"{}\" is not a list", key));
-  if (list.size() != size) {
+  if (list.size() != size)
     throw std::invalid_argument(
         fmt::format("\"{}\" has {} numbers, not {}: {}", key, list.size(), size, what));
-  }
   std::array<double, size> numbers{};
   for (std::size_t i = 0; i < size; ++i) {
-    if (!list[i].is_number()) {
+    if (!list[i].is_number())
       throw std::invalid_argument(fmt::format("\"{}\": number {} is none", key, i + 1));
-    }
     numbers[i] = list[i].get<double>();
     if (!std::isfinite(numbers[i]))
       throw std::invalid_argument(fmt::format("\"{}\": number {} is not finite", key, i + 1));

@@ -85,10 +85,9 @@ class ScheduleFollower {
       const std::size_t all = moves_of_first_step(*schedule).size();
       while (schedule->at(begin).size() < all) --begin;
     }
-    for (; begin <= step; ++begin) {
+    for (; begin <= step; ++begin)
       for (const BodyMove& move : schedule->at(begin))
         place(static_cast<std::uint32_t>(move.body), move.pose());
-    }
     step_ = step;
   }
 

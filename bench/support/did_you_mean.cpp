@@ -29,7 +29,7 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
 
 std::string near_names(std::string_view mistyped, const std::vector<std::string>& known) {
   std::vector<std::string> names = known;
-  std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+  std::ranges::stable_sort(names, [&](const std::string& a, const std::string& b) {
     return edits_between(mistyped, a) < edits_between(mistyped, b);
   });
   names.resize(std::min<std::size_t>(names.size(), 3));

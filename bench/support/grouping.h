@@ -22,8 +22,7 @@ auto grouped_by(const std::vector<Row>& rows, KeyOf key_of) {
     else
       element = &row;
     const Key key = key_of(*element);
-    auto group =
-        std::find_if(groups.begin(), groups.end(), [&](const auto& known) { return known.first == key; });
+    auto group = std::ranges::find_if(groups, [&](const auto& known) { return known.first == key; });
     if (group == groups.end()) group = groups.insert(group, {key, {}});
     group->second.push_back(element);
   }

@@ -41,9 +41,8 @@ void Table::add(std::vector<std::string> row) {
 
 std::string Table::text() const {
   std::vector<std::size_t> widths(rows_.front().size());
-  for (const std::vector<std::string>& row : rows_) {
+  for (const std::vector<std::string>& row : rows_)
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
   std::string text;
   for (const std::vector<std::string>& row : rows_) {
     std::string line = fmt::format("{:<{}}", row[0], widths[0]);

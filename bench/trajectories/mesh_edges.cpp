@@ -28,9 +28,8 @@ bool is_sharp(std::span<const Face> faces) {
     const double cosine = faces[0].normal.dot(faces[1].normal);
     return (faces[0].forward == faces[1].forward ? -cosine : cosine) < cosine_of_sharp;
   }
-  return std::any_of(faces.begin(), faces.end(), [&](const Face& face) {
-    return std::abs(face.normal.dot(faces[0].normal)) < cosine_of_sharp;
-  });
+  return std::ranges::any_of(
+      faces, [&](const Face& face) { return std::abs(face.normal.dot(faces[0].normal)) < cosine_of_sharp; });
 }
 
 Vec3 bisector_of(std::span<const Face> faces, const Vec3& along) {

@@ -46,7 +46,7 @@ bool is_word(std::string_view field) {
   constexpr std::array<std::string_view, 8> missing = {"NA",   "N/A",  "na",   "n/a",
                                                        "NULL", "null", "None", "none"};
   return support::has_words(field) && !support::is_number(field, ' ') &&
-         std::find(missing.begin(), missing.end(), trimmed(field)) == missing.end();
+         std::ranges::find(missing, trimmed(field)) == missing.end();
 }
 
 class HeaderReader {
@@ -80,18 +80,166 @@ class HeaderReader {
   }
   bool is_number(const std::string& field) const { return support::is_number(field, file_.separator()); }
 
-  std::optional<MotionColumns> named_by(const Fields& names, std::size_t line) const;
-  std::optional<MotionColumns> below_a_header(Row& row);
-  std::optional<MotionColumns> of_a_first_row(const Row& row) const;
-  MotionColumns chosen_columns(const MotionNames& names) const;
-  void guess_times(MotionColumns& columns, const Fields& row) const;
-  std::vector<Row> names_in_comments(const Fields& row) const;
-  bool is_data(const Fields& row, const Fields& first) const;
-  void expect_no_data(const Row& above, const Fields& first) const;
+  /// Returns the columns if these names are a header for them.
+  std::optional<MotionColumns> named_by(const Fields& fields, std::size_t line) const {
+    const MotionNames names(file_, fields, line);
+    const auto has = [&](const ColumnChoice& choice) {
+      return is_name(choice) ? names.find(std::get<std::string>(choice)).has_value()
+                             : std::get<std::size_t>(choice) <= count_of(fields);
+    };
+    std::optional<MotionColumns> columns;
+    if (!chosen_) columns = names.usual_columns();
+    if (chosen_ && std::ranges::all_of(choices_, has)) columns = chosen_columns(names);
+    if (!columns) return columns;
+    columns->min_count = count_of(fields);
+    columns->count = fields.size();
+    columns->line = line;
+    return columns;
+  }
+  /// Returns the columns if the row is a header, or a comment before it is. Then `row` is the row after it.
+  std::optional<MotionColumns> below_a_header(Row& row) {
+    std::optional<MotionColumns> columns = named_by(row.fields, row.line);
+    if (columns) {
+      if (!read_next_row(file_, row.fields)) row.fields.clear();
+      row.line = file_.line();
+      return columns;
+    }
+    for (const Row& names : names_in_comments(row.fields)) {
+      columns = named_by(names.fields, names.line);
+      if (!columns) continue;
+      columns->count = std::max(columns->count, row.fields.size());
+      break;
+    }
+    return columns;
+  }
+
+  /// Returns the columns if the row has numbers in all of them.
+  std::optional<MotionColumns> of_a_first_row(const Row& row) const {
+    const auto has_number = [&](const ColumnChoice& choice) {
+      const std::size_t number = std::get<std::size_t>(choice);
+      return number <= row.fields.size() && is_number(row.fields[number - 1]);
+    };
+    if (!std::ranges::all_of(choices_, has_number)) return std::nullopt;
+    std::vector<Row> headers = names_in_comments(row.fields);
+    if (headers.empty() && !above_.empty()) headers.push_back(above_.back());
+    const Fields names = headers.empty() ? Fields() : headers.front().fields;
+    MotionColumns columns = chosen_columns(MotionNames(file_, names, row.line));
+    columns.min_count = count_of(row.fields);
+    columns.count = row.fields.size();
+    columns.line = row.line;
+    if (names.empty() && !columns.time) guess_times(columns, row.fields);
+    return columns;
+  }
+
+  MotionColumns chosen_columns(const MotionNames& names) const {
+    MotionColumns columns;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      columns.position[axis] = names.column(chosen_->position[axis]);
+    if (chosen_->radius) columns.radius = names.column(*chosen_->radius);
+    if (chosen_->time) columns.time = names.time_column(*chosen_->time);
+    if (chosen_->time_rest) columns.time_rest = names.time_column(*chosen_->time_rest);
+    return columns;
+  }
+
+  /// Takes the first two columns as times if they hold whole seconds from 1990 to 2100 and nanoseconds.
+  void guess_times(MotionColumns& columns, const Fields& row) const {
+    const auto is_position = [](const MotionColumn& column) { return column.index < 2; };
+    if (std::ranges::any_of(columns.position, is_position)) return;
+    const auto seconds = support::parse_count(trimmed(row[0])), rest = support::parse_count(trimmed(row[1]));
+    if (!seconds || decimals_of_date(static_cast<double>(*seconds)) != 0) return;
+    if (!rest || *rest >= 1'000'000'000) return;
+    columns.time = TimeColumn{{0, "1"}, 0};
+    columns.time_rest = TimeColumn{{1, "2"}, 9};
+    columns.guessed_times = true;
+  }
+
+  /// Returns the comments above the row, the last one first, as rows of as many names as the row has fields.
+  std::vector<Row> names_in_comments(const Fields& row) const {
+    std::vector<Row> found;
+    const std::vector<support::CsvComment>& comments = file_.comments();
+    for (auto comment = comments.rbegin(); comment != comments.rend(); ++comment) {
+      for (const char separator : {file_.separator(), ',', ';', '\t', ' '}) {
+        Fields names = support::split_fields(comment->text, separator);
+        names.resize(count_of(names));
+        // A mark that a program took for a name of its own.
+        if (names.size() == row.size() + 1 && names.front().empty()) names.erase(names.begin());
+        if (!support::has_words(comment->text) || names.size() < count_of(row) || names.size() > row.size())
+          continue;
+        found.push_back({std::move(names), comment->line});
+        break;
+      }
+    }
+    return found;
+  }
+
+  /// True if the row has more numbers than words, or no words, where the motion's first row has numbers.
+  bool is_data(const Fields& row, const Fields& first) const {
+    std::size_t words = 0, numbers = 0;
+    for (std::size_t i = 0; i < std::min(row.size(), first.size()); ++i) {
+      if (!is_number(first[i]) || trimmed(row[i]).empty()) continue;
+      ++(is_word(row[i]) ? words : numbers);
+    }
+    return words == 0 || words < numbers;
+  }
+
+  void expect_no_data(const Row& above, const Fields& first) const {
+    if (first.empty() || !is_data(above.fields, first)) return;
+    if (wanted_.empty()) refuse_numbers(above);
+    throw file_.error_at(above.line, fmt::format("the row {} has numbers, and stands above the header",
+                                                 shown(fmt::format("{}", fmt::join(above.fields, ",")))));
+  }
+
   bool looks_like_data(const Row& row) const { return is_data(row.fields, Fields(row.fields.size(), "0")); }
-  [[noreturn]] void refuse() const;
-  [[noreturn]] void refuse_numbers(const Row& row) const;
-  [[noreturn]] void refuse_names(const Row& row) const;
+  /// No row is a header, or has the numbers. Refuses the one that comes nearest.
+  [[noreturn]] void refuse() const {
+    if (above_.empty()) throw file_.error("the file is empty: it needs a header that names x, y and z");
+    const auto names_in = [&](const Row& row) {
+      const MotionNames names(file_, row.fields, row.line);
+      return std::ranges::count_if(wanted_,
+                                   [&](const std::string& name) { return names.find(name).has_value(); });
+    };
+    if (!wanted_.empty())
+      refuse_names(*std::ranges::max_element(
+          above_, [&](const Row& a, const Row& b) { return names_in(a) < names_in(b); }));
+    for (const Row& row : above_)
+      if (looks_like_data(row)) refuse_numbers(row);
+    throw file_.error_at(above_.back().line, "no row follows the header");
+  }
+
+  /// Refuses a row that lacks a column that is chosen by number, or has no number there.
+  [[noreturn]] void refuse_numbers(const Row& row) const {
+    std::string text;
+    for (const ColumnChoice& choice : choices_) {
+      const std::size_t* const number = std::get_if<std::size_t>(&choice);
+      if (number == nullptr) continue;
+      if (*number > row.fields.size())
+        throw file_.error_at(
+            row.line, fmt::format("--columns: there is no column {} of {}", *number, row.fields.size()));
+      const std::string& field = row.fields[*number - 1];
+      if (text.empty() && !is_number(field))
+        text = fmt::format("column {}: {}", *number, no_number(field, file_.separator()));
+    }
+    throw file_.error_at(row.line, text);
+  }
+
+  /// Refuses a row that does not name all wanted columns.
+  [[noreturn]] void refuse_names(const Row& row) const {
+    const std::string text = shown(fmt::format("{}", fmt::join(row.fields, ",")));
+    if (looks_like_data(row))
+      throw file_.error_at(row.line,
+                           fmt::format("the first row {} has numbers, and no line above it names {}: "
+                                       "--columns x=COL,y=COL,z=COL takes columns by number",
+                                       text, fmt::join(wanted_, ", ")));
+    const MotionNames names(file_, row.fields, row.line);
+    if (chosen_) {
+      (void)chosen_columns(names);
+      refuse_numbers(row);
+    }
+    const auto missing =
+        std::ranges::find_if(wanted_, [&](const std::string& name) { return !names.find(name); });
+    const std::string what = missing == wanted_.end() ? "" : " has no column " + *missing;
+    throw file_.error_at(row.line, fmt::format("the header {}{}: {}", text, what, must_name));
+  }
 
   support::CsvReader& file_;
   const std::optional<ChosenColumns>& chosen_;
@@ -99,166 +247,6 @@ class HeaderReader {
   std::vector<std::string> wanted_;  // names; empty if all columns are chosen by number
   std::vector<Row> above_;           // rows above the header, or above the first row
 };
-
-MotionColumns HeaderReader::chosen_columns(const MotionNames& names) const {
-  MotionColumns columns;
-  for (std::size_t axis = 0; axis < 3; ++axis) columns.position[axis] = names.column(chosen_->position[axis]);
-  if (chosen_->radius) columns.radius = names.column(*chosen_->radius);
-  if (chosen_->time) columns.time = names.time_column(*chosen_->time);
-  if (chosen_->time_rest) columns.time_rest = names.time_column(*chosen_->time_rest);
-  return columns;
-}
-
-/// Returns the columns if these names are a header for them.
-std::optional<MotionColumns> HeaderReader::named_by(const Fields& fields, std::size_t line) const {
-  const MotionNames names(file_, fields, line);
-  const auto has = [&](const ColumnChoice& choice) {
-    return is_name(choice) ? names.find(std::get<std::string>(choice)).has_value()
-                           : std::get<std::size_t>(choice) <= count_of(fields);
-  };
-  std::optional<MotionColumns> columns;
-  if (!chosen_) columns = names.usual_columns();
-  if (chosen_ && std::all_of(choices_.begin(), choices_.end(), has)) columns = chosen_columns(names);
-  if (!columns) return columns;
-  columns->min_count = count_of(fields);
-  columns->count = fields.size();
-  columns->line = line;
-  return columns;
-}
-
-/// Returns the columns if the row is a header, or a comment before it is. Then `row` is the row after it.
-std::optional<MotionColumns> HeaderReader::below_a_header(Row& row) {
-  std::optional<MotionColumns> columns = named_by(row.fields, row.line);
-  if (columns) {
-    if (!read_next_row(file_, row.fields)) row.fields.clear();
-    row.line = file_.line();
-    return columns;
-  }
-  for (const Row& names : names_in_comments(row.fields)) {
-    columns = named_by(names.fields, names.line);
-    if (!columns) continue;
-    columns->count = std::max(columns->count, row.fields.size());
-    break;
-  }
-  return columns;
-}
-
-/// Returns the columns if the row has numbers in all of them.
-std::optional<MotionColumns> HeaderReader::of_a_first_row(const Row& row) const {
-  const auto has_number = [&](const ColumnChoice& choice) {
-    const std::size_t number = std::get<std::size_t>(choice);
-    return number <= row.fields.size() && is_number(row.fields[number - 1]);
-  };
-  if (!std::all_of(choices_.begin(), choices_.end(), has_number)) return std::nullopt;
-  std::vector<Row> headers = names_in_comments(row.fields);
-  if (headers.empty() && !above_.empty()) headers.push_back(above_.back());
-  const Fields names = headers.empty() ? Fields() : headers.front().fields;
-  MotionColumns columns = chosen_columns(MotionNames(file_, names, row.line));
-  columns.min_count = count_of(row.fields);
-  columns.count = row.fields.size();
-  columns.line = row.line;
-  if (names.empty() && !columns.time) guess_times(columns, row.fields);
-  return columns;
-}
-
-/// Takes the first two columns as times if they hold whole seconds from 1990 to 2100 and nanoseconds.
-void HeaderReader::guess_times(MotionColumns& columns, const Fields& row) const {
-  const auto is_position = [](const MotionColumn& column) { return column.index < 2; };
-  if (std::any_of(columns.position.begin(), columns.position.end(), is_position)) return;
-  const auto seconds = support::parse_count(trimmed(row[0])), rest = support::parse_count(trimmed(row[1]));
-  if (!seconds || decimals_of_date(static_cast<double>(*seconds)) != 0) return;
-  if (!rest || *rest >= 1'000'000'000) return;
-  columns.time = TimeColumn{{0, "1"}, 0};
-  columns.time_rest = TimeColumn{{1, "2"}, 9};
-  columns.guessed_times = true;
-}
-
-/// Returns the comments above the row, the last one first, as rows of as many names as the row has fields.
-std::vector<Row> HeaderReader::names_in_comments(const Fields& row) const {
-  std::vector<Row> found;
-  const std::vector<support::CsvComment>& comments = file_.comments();
-  for (auto comment = comments.rbegin(); comment != comments.rend(); ++comment) {
-    for (const char separator : {file_.separator(), ',', ';', '\t', ' '}) {
-      Fields names = support::split_fields(comment->text, separator);
-      names.resize(count_of(names));
-      // A mark that a program took for a name of its own.
-      if (names.size() == row.size() + 1 && names.front().empty()) names.erase(names.begin());
-      if (!support::has_words(comment->text) || names.size() < count_of(row) || names.size() > row.size())
-        continue;
-      found.push_back({std::move(names), comment->line});
-      break;
-    }
-  }
-  return found;
-}
-
-/// True if the row has more numbers than words, or no words, where the motion's first row has numbers.
-bool HeaderReader::is_data(const Fields& row, const Fields& first) const {
-  std::size_t words = 0, numbers = 0;
-  for (std::size_t i = 0; i < std::min(row.size(), first.size()); ++i) {
-    if (!is_number(first[i]) || trimmed(row[i]).empty()) continue;
-    ++(is_word(row[i]) ? words : numbers);
-  }
-  return words == 0 || words < numbers;
-}
-
-void HeaderReader::expect_no_data(const Row& above, const Fields& first) const {
-  if (first.empty() || !is_data(above.fields, first)) return;
-  if (wanted_.empty()) refuse_numbers(above);
-  throw file_.error_at(above.line, fmt::format("the row {} has numbers, and stands above the header",
-                                               shown(fmt::format("{}", fmt::join(above.fields, ",")))));
-}
-
-/// Refuses a row that lacks a column that is chosen by number, or has no number there.
-void HeaderReader::refuse_numbers(const Row& row) const {
-  std::string text;
-  for (const ColumnChoice& choice : choices_) {
-    const std::size_t* const number = std::get_if<std::size_t>(&choice);
-    if (number == nullptr) continue;
-    if (*number > row.fields.size())
-      throw file_.error_at(row.line,
-                           fmt::format("--columns: there is no column {} of {}", *number, row.fields.size()));
-    const std::string& field = row.fields[*number - 1];
-    if (text.empty() && !is_number(field))
-      text = fmt::format("column {}: {}", *number, no_number(field, file_.separator()));
-  }
-  throw file_.error_at(row.line, text);
-}
-
-/// Refuses a row that does not name all wanted columns.
-void HeaderReader::refuse_names(const Row& row) const {
-  const std::string text = shown(fmt::format("{}", fmt::join(row.fields, ",")));
-  if (looks_like_data(row)) {
-    throw file_.error_at(row.line, fmt::format("the first row {} has numbers, and no line above it names {}: "
-                                               "--columns x=COL,y=COL,z=COL takes columns by number",
-                                               text, fmt::join(wanted_, ", ")));
-  }
-  const MotionNames names(file_, row.fields, row.line);
-  if (chosen_) {
-    (void)chosen_columns(names);
-    refuse_numbers(row);
-  }
-  const auto missing = std::find_if(wanted_.begin(), wanted_.end(),
-                                    [&](const std::string& name) { return !names.find(name); });
-  const std::string what = missing == wanted_.end() ? "" : " has no column " + *missing;
-  throw file_.error_at(row.line, fmt::format("the header {}{}: {}", text, what, must_name));
-}
-
-/// No row is a header, or has the numbers. Refuses the one that comes nearest.
-void HeaderReader::refuse() const {
-  if (above_.empty()) throw file_.error("the file is empty: it needs a header that names x, y and z");
-  const auto names_in = [&](const Row& row) {
-    const MotionNames names(file_, row.fields, row.line);
-    return std::count_if(wanted_.begin(), wanted_.end(),
-                         [&](const std::string& name) { return names.find(name).has_value(); });
-  };
-  if (!wanted_.empty())
-    refuse_names(*std::max_element(above_.begin(), above_.end(),
-                                   [&](const Row& a, const Row& b) { return names_in(a) < names_in(b); }));
-  for (const Row& row : above_)
-    if (looks_like_data(row)) refuse_numbers(row);
-  throw file_.error_at(above_.back().line, "no row follows the header");
-}
 
 }  // namespace
 

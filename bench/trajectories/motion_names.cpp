@@ -77,8 +77,8 @@ std::optional<int> decimals_of_end(std::string_view name) {
 /// True if `name` is `wanted` with nothing but wholes before it: "field_pose_x" and "pose_x".
 bool is_part(std::string_view name, std::string_view wanted) {
   while (name.size() > wanted.size()) {
-    const auto whole = std::find_if(wholes.begin(), wholes.end(),
-                                    [&](std::string_view known) { return name.starts_with(known); });
+    const auto whole =
+        std::ranges::find_if(wholes, [&](std::string_view known) { return name.starts_with(known); });
     if (whole == wholes.end()) return false;
     name.remove_prefix(whole->size());
   }

@@ -71,8 +71,8 @@ ChosenColumns parse_columns(const std::string& text) {
                                               : key == "z"      ? &position[2]
                                               : key == "radius" ? &columns.radius
                                                                 : nullptr;
-    const auto time = std::find_if(time_keys.begin(), time_keys.end(),
-                                   [&](const TimeKey& known) { return known.name == key; });
+    const auto time =
+        std::ranges::find_if(time_keys, [&](const TimeKey& known) { return known.name == key; });
     if (equals == part.size() || (slot == nullptr && time == time_keys.end()))
       refuse_columns(text, fmt::format("\"{}\" is not KEY=COL with a known key", part));
     const ColumnChoice choice = choice_of(text, std::string(part.substr(equals + 1)));

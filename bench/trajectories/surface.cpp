@@ -64,7 +64,7 @@ Contact Surface::nearest(const Vec3& center) {
 
 SurfacePoint Surface::random_surface_point(support::Random& random) const {
   const double at = random.unit() * weight_up_to_.back();
-  const auto found = std::upper_bound(weight_up_to_.begin(), weight_up_to_.end(), at);
+  const auto found = std::ranges::upper_bound(weight_up_to_, at);
   const auto last = static_cast<std::ptrdiff_t>(mesh_.size()) - 1;
   const auto triangle = static_cast<std::uint32_t>(std::min(found - weight_up_to_.begin(), last));
   const double u = random.unit(), v = random.unit();

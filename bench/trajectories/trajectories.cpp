@@ -77,17 +77,15 @@ std::optional<double> speed_in(const std::string& what, const Shape& shape) {
   if (colon == std::string::npos || *shape.words != '\0') return std::nullopt;
   constexpr std::string_view key = "speed=";
   const std::string_view option = std::string_view(what).substr(colon + 1);
-  if (shape.own_speed == 0 || !option.starts_with(key)) {
+  if (shape.own_speed == 0 || !option.starts_with(key))
     throw std::invalid_argument("trajectory '" + what + "': " + shape.name +
                                 (shape.own_speed > 0 ? " takes speed=S% only" : " takes no option"));
-  }
   const std::optional<support::Length> speed = support::parse_length(option.substr(key.size()));
   if (!speed || !speed->percent || !(speed->value >= min_speed_percent) ||
-      !(speed->value <= max_speed_percent)) {
+      !(speed->value <= max_speed_percent))
     throw std::invalid_argument(
         "trajectory '" + what +
         "': its speed is not a percentage of the diagonal a tick from 0.0001% to 50%");
-  }
   return speed->value / 100;
 }
 
@@ -104,10 +102,9 @@ bool is_generated(const std::string& name) { return shape_of(name) != nullptr; }
 
 Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
                            const TrajectoryOptions& options) {
-  if (!(options.radius >= 0)) {
+  if (!(options.radius >= 0))
     throw std::invalid_argument("the radius is " + std::to_string(options.radius) +
                                 ": it must be at least 0");
-  }
   const Shape* const shape = shape_of(what);
   if (shape == nullptr && !is_path(what)) throw unknown(what);
   if (shape == nullptr && !options.motion.drape) return read_trajectory(what, options.steps, options.motion);

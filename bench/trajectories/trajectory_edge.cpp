@@ -66,7 +66,7 @@ class Starts {
   std::optional<std::uint32_t> random(support::Random& random) const {
     if (edges_.empty()) return std::nullopt;
     const double at = random.unit() * length_up_to_.back();
-    const auto found = std::upper_bound(length_up_to_.begin(), length_up_to_.end(), at);
+    const auto found = std::ranges::upper_bound(length_up_to_, at);
     const auto last = static_cast<std::ptrdiff_t>(edges_.size()) - 1;
     return edges_[static_cast<std::size_t>(std::min(found - length_up_to_.begin(), last))];
   }

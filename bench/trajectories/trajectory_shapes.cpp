@@ -50,6 +50,24 @@ class Progress {
   Aabb visited_;
 };
 
+/// The thinnest few of many random places.
+std::vector<SurfacePoint> find_thin_points(Surface& surface, Motion& motion) {
+  struct Measured {
+    double thickness;
+    SurfacePoint surface_point;
+  };
+  std::vector<Measured> found;
+  for (int i = 0; i < 256; ++i) {
+    const SurfacePoint surface_point = surface.random_surface_point(motion.random);
+    found.push_back({surface.thickness(surface_point, motion.diagonal), surface_point});
+  }
+  std::ranges::stable_sort(found,
+                           [](const Measured& a, const Measured& b) { return a.thickness < b.thickness; });
+  std::vector<SurfacePoint> thinnest;
+  for (std::size_t i = 0; i < 64; ++i) thinnest.push_back(found[i].surface_point);
+  return thinnest;
+}
+
 }  // namespace
 
 // Every tick goes one step along the heading, and back towards the nearest point where that left the ball's
@@ -182,28 +200,6 @@ Positions tap(Motion motion) {
   }
   return std::move(path).positions();
 }
-
-namespace {
-
-/// The thinnest few of many random places.
-std::vector<SurfacePoint> find_thin_points(Surface& surface, Motion& motion) {
-  struct Measured {
-    double thickness;
-    SurfacePoint surface_point;
-  };
-  std::vector<Measured> found;
-  for (int i = 0; i < 256; ++i) {
-    const SurfacePoint surface_point = surface.random_surface_point(motion.random);
-    found.push_back({surface.thickness(surface_point, motion.diagonal), surface_point});
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Measured& a, const Measured& b) { return a.thickness < b.thickness; });
-  std::vector<SurfacePoint> thinnest;
-  for (std::size_t i = 0; i < 64; ++i) thinnest.push_back(found[i].surface_point);
-  return thinnest;
-}
-
-}  // namespace
 
 Positions cross(Motion motion) {
   Surface surface(motion.mesh);

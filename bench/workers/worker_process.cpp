@@ -54,9 +54,8 @@ bool place_descriptors(int control, int input, int output) {
   const std::array<int, 3> from{fcntl(control, F_DUPFD_CLOEXEC, above), fcntl(input, F_DUPFD_CLOEXEC, above),
                                 fcntl(output, F_DUPFD_CLOEXEC, above)};
   constexpr std::array<int, 3> to{worker_control, worker_input, worker_output};
-  for (std::size_t i = 0; i < from.size(); ++i) {
+  for (std::size_t i = 0; i < from.size(); ++i)
     if (from[i] < 0 || dup2(from[i], to[i]) < 0) return false;
-  }
   return true;
 }
 
@@ -119,14 +118,12 @@ bool worker_program_exists(const std::string& program) {
 }
 
 WorkerProcess::WorkerProcess(const WorkerLaunch& launch) : program_(launch.program) {
-  if (!worker_program_exists(launch.program)) {
+  if (!worker_program_exists(launch.program))
     throw support::ResourceError(fmt::format("the program {} is not beside this one", launch.program));
-  }
   std::array<int, 2> sockets{};
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0) {
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0)
     throw support::ResourceError(
         fmt::format("cannot talk to a worker: {}", support::described_with_limit(errno)));
-  }
   const Exec exec(launch);
   const pid_t parent = getpid();
   process_ = fork();
@@ -168,11 +165,10 @@ void WorkerProcess::explain(const Ending& ending) const {
   const std::string how = how_it_ended(ending.status);
   const bool not_started = WIFEXITED(ending.status) && WEXITSTATUS(ending.status) == not_loaded;
   if (replied_ || (loads_plugin_ && !not_started)) throw WorkerFailure(how);
-  if (not_started) {
+  if (not_started)
     throw support::ResourceError(
         fmt::format("{} cannot be loaded: a library is missing, or there is too little memory{}", program_,
                     support::memory_limit()));
-  }
   throw support::ResourceError(
       fmt::format("{} ended before it knew whom to run: {}{}", program_, how, support::memory_limit()));
 }

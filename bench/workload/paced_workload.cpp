@@ -53,12 +53,11 @@ Selection selection_by_time(Selection selection, const TriangleMesh& mesh, const
 
 Workload scene_workload_by_time(scenes::GeneratedScene scene, Selection selection,
                                 const std::vector<std::string>& trajectories, const Ticks& ticks) {
-  for (const std::string& trajectory : trajectories) {
+  for (const std::string& trajectory : trajectories)
     if (is_resampled_shape(trajectory, ticks.rate_hz))
       throw std::invalid_argument(fmt::format(
           "--rate {:g}: over a scene of bodies {} goes at {:g} Hz; a motion file goes at any rate",
           ticks.rate_hz, trajectory, shape_rate_hz));
-  }
   selection.motion.rate_hz = ticks.rate_hz;
   return make_scene_workload(std::move(scene), selection, trajectories, steps_for(selection, ticks));
 }

@@ -29,9 +29,8 @@ constexpr std::string_view name_of(Query query) noexcept {
 }
 
 constexpr std::optional<Query> query_named(std::string_view name) noexcept {
-  for (const Query query : queries_of_scenes) {
+  for (const Query query : queries_of_scenes)
     if (name_of(query) == name) return query;
-  }
   return std::nullopt;
 }
 

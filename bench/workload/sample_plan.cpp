@@ -50,7 +50,7 @@ SamplePlan::SamplePlan(std::size_t total, std::vector<Phase> phases, std::uint64
   support::Random random(seed);
   std::vector<Drawn> drawn;
   for (std::vector<std::size_t>& some : blocks) draw(std::move(some), random, drawn);
-  std::stable_sort(drawn.begin(), drawn.end(), [](const Drawn& a, const Drawn& b) { return a.key < b.key; });
+  std::ranges::stable_sort(drawn, [](const Drawn& a, const Drawn& b) { return a.key < b.key; });
   for (const Drawn& one : drawn) {
     order_.push_back(one.block);
     min_ += one.key < 0 ? 1 : 0;
@@ -66,7 +66,7 @@ std::vector<StepRange> SamplePlan::ranges(std::size_t wanted) const {
     const std::size_t begin = order_[i] * block_steps;
     ranges.push_back({begin, std::min(begin + length, total_)});
   }
-  std::sort(ranges.begin(), ranges.end(), [](StepRange a, StepRange b) { return a.begin < b.begin; });
+  std::ranges::sort(ranges, [](StepRange a, StepRange b) { return a.begin < b.begin; });
   return ranges;
 }
 

@@ -57,9 +57,9 @@ void carry(std::vector<Vec3>& positions, std::span<const double> times, const sc
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto found = tree.nearest({positions[i], 0}, std::numeric_limits<double>::infinity(), session);
     if (!found) continue;
-    const auto after = std::upper_bound(beginnings.begin(), beginnings.end(), found->triangle);
+    const auto after = std::ranges::upper_bound(beginnings, found->triangle);
     const auto body = static_cast<std::uint32_t>(after - beginnings.begin() - 1);
-    if (!std::binary_search(scene.motion.moving.begin(), scene.motion.moving.end(), body)) continue;
+    if (!std::ranges::binary_search(scene.motion.moving, body)) continue;
     const Pose start = scenes::pose_of(scene.scene.bodies[body].start);
     positions[i] = image(scenes::pose_of(scene.motion.at(body, times[i])), in_frame(start, positions[i]));
   }

@@ -44,14 +44,12 @@ void say_that_rows_are_steps(const trajectories::Trajectory& trajectory) {
 
 void expect_a_motion_file(const std::vector<std::string>& trajectories,
                           const trajectories::MotionOptions& options) {
-  if (options.are_given() &&
-      std::all_of(trajectories.begin(), trajectories.end(), &trajectories::is_generated)) {
+  if (options.are_given() && std::ranges::all_of(trajectories, &trajectories::is_generated))
     throw std::invalid_argument(
         fmt::format("{} is of motion files, and no --trajectory is one", options.columns   ? "--columns"
                                                                          : options.rate_hz ? "--rate"
                                                                          : options.drape   ? "--drape"
                                                                                          : "--motion-scale"));
-  }
 }
 
 }  // namespace
@@ -127,10 +125,9 @@ std::string trace_text(const Workload& workload, std::size_t trace) {
     if (const auto& rate = motion.recorded->resampled_hz)
       text += fmt::format(", resampled to {:.6g} Hz", *rate);
   }
-  if (workload.unit) {
+  if (workload.unit)
     text += fmt::format(", mean speed {:.3g} m/s, at most {:.3g} m/s",
                         motion.mean_speed * workload.unit->metres, motion.max_speed * workload.unit->metres);
-  }
   return text;
 }
 

@@ -35,9 +35,8 @@ struct StackEntry {
 }  // namespace
 
 AabbTree AabbTree::build(const TriangleMesh& mesh, const Options& options) {
-  if (options.leaf_size < 1 || options.leaf_size > 255) {
+  if (options.leaf_size < 1 || options.leaf_size > 255)
     throw std::invalid_argument("the leaf size must be 1 to 255, not " + std::to_string(options.leaf_size));
-  }
   const unsigned threads = threads_to_use(options.threads, "aabb-tree");
   check_flushed_denormals(mesh);
   AabbTree tree;

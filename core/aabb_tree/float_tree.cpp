@@ -38,12 +38,11 @@ FloatTree FloatTree::build(const TriangleMesh& mesh, const Options& options) {
                       {.leaf_size = options.leaf_size, .threads = options.threads});
   for (const AabbTree::Node& node : exact.nodes_)
     tree.nodes_.push_back({node.box.min.cast<float>(), node.box.max.cast<float>(), node.first, node.count});
-  for (const PreparedTriangle& t : exact.triangles_) {
+  for (const PreparedTriangle& t : exact.triangles_)
     tree.triangles_.push_back(
         {{t.corner[0].cast<float>(), t.corner[1].cast<float>(), t.corner[2].cast<float>()},
          t.normal.cast<float>(),
          t.index});
-  }
   tree.nodes_.shrink_to_fit();
   tree.triangles_.shrink_to_fit();
   return tree;

@@ -32,10 +32,9 @@ bool overlaps(const std::array<Vec3, 3>& corner, const Aabb& box) noexcept {
     if (separates(Vec3::Unit(k), v, half, error)) return false;
   const std::array<Vec3, 3> edge = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
   if (separates(edge[0].cross(edge[1]), v, half, error)) return false;
-  for (const Vec3& e : edge) {
+  for (const Vec3& e : edge)
     for (int k = 0; k < 3; ++k)
       if (separates(Vec3::Unit(k).cross(e), v, half, error)) return false;
-  }
   return true;
 }
 

@@ -17,11 +17,10 @@ namespace touchmark {
 void GridGroup::check(const Options& options) {
   constexpr double min_bytes_per_triangle = 200;
   grid::check_cell(options.cell);
-  if (!(options.bytes_per_triangle >= min_bytes_per_triangle)) {
+  if (!(options.bytes_per_triangle >= min_bytes_per_triangle))
     throw std::invalid_argument("grid-group: bytes_per_triangle is " +
                                 std::to_string(options.bytes_per_triangle) + ", less than " +
                                 std::to_string(min_bytes_per_triangle));
-  }
   threads_to_use(options.threads, "grid-group");
 }
 

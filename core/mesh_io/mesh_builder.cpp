@@ -23,10 +23,9 @@ constexpr std::uint64_t max_size = std::uint64_t{4} << 30, max_piped = std::uint
 std::string read_whole(const std::filesystem::path& path) {
   InputFile file(path);
   if (!file.is_regular() && !file.is_pipe()) throw MeshError("is neither a file nor a pipe");
-  if (file.size() > max_size) {
+  if (file.size() > max_size)
     throw MeshError("has " + std::to_string(file.size()) + " bytes; at most " + std::to_string(max_size) +
                     " are read (4 GiB)");
-  }
   constexpr std::size_t min_room = 1 << 16;
   std::string bytes(file.size() + 1, '\0');  // the one more finds the end
   std::size_t filled = 0;
@@ -195,9 +194,8 @@ std::int64_t parse_integer(std::string_view word, std::string_view what, const T
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size()) {
+  if (error != std::errc() || end != digits.data() + digits.size())
     cursor.fail(std::string(what) + " " + quoted(word) + " is not a whole number");
-  }
   return value;
 }
 

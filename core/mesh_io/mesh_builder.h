@@ -90,10 +90,9 @@ class MeshBuilder {
   /// A vertex read so far, as a face names it.
   template <class Position>
   std::uint32_t checked_corner(std::int64_t vertex, const Position& position) const {
-    if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= vertices_.size()) {
+    if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= vertices_.size())
       position.fail("face " + std::to_string(faces_) + " names vertex " + std::to_string(vertex) + " of " +
                     std::to_string(vertices_.size()));
-    }
     return static_cast<std::uint32_t>(vertex);
   }
 
@@ -109,9 +108,8 @@ class MeshBuilder {
     if (corners.size() == 3) return add_triangle(corners[0], corners[1], corners[2]);
     if (corners.size() <= max_clipped_corners) return add_polygon(corners, clipped_ears(vertices_, corners));
     const std::vector<PolygonTriangle> triangles = fan(vertices_, corners);
-    if (triangles.empty()) {
+    if (triangles.empty())
       fail(" and is not convex; " + std::to_string(max_clipped_corners) + " are the most of one that is not");
-    }
     add_polygon(corners, triangles);
   }
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);

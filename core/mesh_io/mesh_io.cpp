@@ -32,10 +32,9 @@ void refuse_cad_files(const std::string& bytes, const std::string& ending) {
   constexpr std::string_view step_header = "ISO-10303-21";
   const bool by_ending = std::find(cad_endings.begin(), cad_endings.end(), ending) != cad_endings.end();
   const bool is_step = bytes.starts_with(step_header) && ending != ".ifc";  // which assimp reads
-  if (by_ending || is_step) {
+  if (by_ending || is_step)
     throw MeshError(std::string("is a CAD exchange file (") + (ending.starts_with(".ig") ? "IGES" : "STEP") +
                     "), not a mesh; export it as STL, PLY or OBJ");
-  }
 }
 
 /// Formats of one mesh, which state neither axes nor a unit.

@@ -30,9 +30,8 @@ constexpr std::array<ScalarName, 16> scalar_names = {{{"char", Scalar::int8},
                                                       {"float64", Scalar::float64}}};
 
 Scalar parse_scalar(std::string_view word, const TextCursor& cursor) {
-  for (const ScalarName& known : scalar_names) {
+  for (const ScalarName& known : scalar_names)
     if (known.name == word) return known.scalar;
-  }
   cursor.fail("unknown type " + quoted(word));
 }
 
@@ -53,9 +52,8 @@ Property parse_property(TextCursor& cursor) {
 /// The least bytes that one of these takes, so that a count can be held against the file's size.
 std::size_t min_bytes(const Element& element, Format format) {
   std::size_t bytes = 0;
-  for (const Property& property : element.properties) {
+  for (const Property& property : element.properties)
     bytes += format == Format::ascii ? 2 : bytes_of(property.length.value_or(property.value));
-  }
   return std::max<std::size_t>(bytes, 1);
 }
 
@@ -84,10 +82,9 @@ void add_property(Header& header, TextCursor& cursor) {
   if (header.elements.empty()) cursor.fail("a property before any element");
   Element& element = header.elements.back();
   Property property = parse_property(cursor);
-  if (element.has(property.name)) {
+  if (element.has(property.name))
     cursor.fail("element " + mesh_io::quoted(element.name) + " has property " +
                 mesh_io::quoted(property.name) + " twice");
-  }
   element.properties.push_back(std::move(property));
 }
 
@@ -125,16 +122,14 @@ Header parse(std::string_view bytes) {
 void check(const Header& header, std::size_t file_size) {
   for (const Element& element : header.elements) {
     const std::size_t least = min_bytes(element, header.format);
-    if (element.count > file_size / least) {
+    if (element.count > file_size / least)
       throw MeshError("the header declares " + std::to_string(element.count) + " of element " +
                       mesh_io::quoted(element.name) + ", of at least " + std::to_string(least) +
                       " bytes each; the file has " + std::to_string(file_size) + " bytes");
-    }
     if (element.name == "vertex") {
-      for (const std::string_view axis : {"x", "y", "z"}) {
+      for (const std::string_view axis : {"x", "y", "z"})
         if (!element.has(axis) || element.properties[element.find(axis)].length)
           element.fail("has no coordinate " + std::string(axis));
-      }
     }
     if (is_surface(element)) {
       const std::size_t at = element.indices();

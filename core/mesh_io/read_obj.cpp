@@ -39,10 +39,9 @@ std::uint32_t corner(std::string_view word, const VerticesThere& vertices, std::
   const std::int64_t given = parse_integer(word.substr(0, word.find('/')), "a face's vertex", cursor);
   const auto so_far = static_cast<std::int64_t>(vertices.so_far);
   const auto in_all = static_cast<std::int64_t>(vertices.in_all);
-  if (given < -so_far || given == 0 || given > in_all) {
+  if (given < -so_far || given == 0 || given > in_all)
     cursor.fail("face " + std::to_string(face) + " names vertex " + std::to_string(given) + " of " +
                 (given < 0 ? std::to_string(so_far) + " so far" : std::to_string(in_all)));
-  }
   return static_cast<std::uint32_t>(given > 0 ? given - 1 : so_far + given);
 }
 
@@ -56,10 +55,9 @@ void read_vertices(TextCursor cursor, MeshBuilder& mesh) {
 }
 
 void check_statement(std::string_view statement, const TextCursor& cursor) {
-  for (const Refused& known : refused) {
+  for (const Refused& known : refused)
     if (statement == known.statement)
       cursor.fail(std::string(statement) + ", " + std::string(known.what) + ", is not supported");
-  }
   if (std::find(skipped.begin(), skipped.end(), statement) == skipped.end())
     cursor.fail("unknown statement " + quoted(statement));
 }

@@ -22,9 +22,8 @@ bool is_count(std::string_view word) {
 
 std::string upper_case(std::string_view word, char kept = 0) {
   std::string upper(word);
-  for (char& c : upper) {
+  for (char& c : upper)
     if (c != kept) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  }
   return upper;
 }
 
@@ -84,10 +83,9 @@ void skip_edge_count(TextCursor& cursor) {
 /// A count that the rest of the file can hold, at two bytes a value.
 std::size_t count(TextCursor& cursor, std::string_view what, std::size_t file_size) {
   const std::int64_t value = cursor.integer(what);
-  if (value < 0 || static_cast<std::uint64_t>(value) > file_size / 2) {
+  if (value < 0 || static_cast<std::uint64_t>(value) > file_size / 2)
     cursor.fail(std::string(what) + " " + std::to_string(value) + " in a file of " +
                 std::to_string(file_size) + " bytes");
-  }
   return static_cast<std::size_t>(value);
 }
 
@@ -124,10 +122,9 @@ TriangleMesh read_off(std::string_view bytes) {
       cursor.fail("ends after " + std::to_string(i) + " of " + std::to_string(faces) + " faces");
     const std::size_t size = count(cursor, "a face's number of corners", bytes.size());
     corners.clear();
-    for (std::size_t k = 0; k < size; ++k) {
+    for (std::size_t k = 0; k < size; ++k)
       corners.push_back(
           mesh.checked_corner(parse_integer(cursor.word_on_line(), "a face's vertex", cursor), cursor));
-    }
     mesh.add_face(corners, cursor);
     cursor.skip_line();
   }

@@ -41,9 +41,8 @@ class AsciiBody {
     return ply::is_integer(scalar) ? cursor_.integer(what) : whole(cursor_.number(what), scalar, what, *this);
   }
   void skip(Scalar, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i)
       if (cursor_.word().empty()) fail("ends in the middle of an element");
-    }
   }
   bool has_only_padding_left() const { return is_padding(cursor_.rest()); }
   [[noreturn]] void fail(const std::string& message) const { cursor_.fail(message); }
@@ -159,9 +158,8 @@ void read_indices(Body& body, const Element& element, const Take& take) {
 
 template <class Body>
 void expect_more(Body& body, const Element& element, std::size_t done, const char* what) {
-  if (body.at_end()) {
+  if (body.at_end())
     body.fail("ends after " + std::to_string(done) + " of " + std::to_string(element.count) + " " + what);
-  }
 }
 
 template <class Body>
@@ -190,9 +188,8 @@ void read_strips(Body& body, const Element& element, MeshBuilder& mesh) {
         return;
       }
       const std::uint32_t c = mesh.checked_corner(vertex, body);
-      if (++length >= 3 && a != b && b != c && c != a) {
+      if (++length >= 3 && a != b && b != c && c != a)
         length % 2 == 1 ? mesh.add_triangle(a, b, c) : mesh.add_triangle(b, a, c);
-      }
       a = b;
       b = c;
     });
@@ -211,9 +208,8 @@ void read_surface(Body& body, const Element& element, MeshBuilder& mesh) {
 
 template <class Body>
 void skip(Body& body, const Element& element) {
-  for (std::size_t i = 0; i < element.count; ++i) {
+  for (std::size_t i = 0; i < element.count; ++i)
     for (const Property& property : element.properties) skip_property(body, property);
-  }
 }
 
 template <class Body>
@@ -242,9 +238,8 @@ TriangleMesh read_body(Body body, const Header& header) {
 
 TriangleMesh read_ply(std::string_view bytes) {
   const Header header = ply::parse_header(bytes);
-  if (header.format == Format::ascii) {
+  if (header.format == Format::ascii)
     return read_body(AsciiBody(bytes.substr(header.size), header.lines), header);
-  }
   const bool swapped = (header.format == Format::big_endian) == (std::endian::native == std::endian::little);
   return read_body(BinaryBody(bytes, header.size, swapped), header);
 }

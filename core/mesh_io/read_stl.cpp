@@ -53,10 +53,9 @@ TriangleMesh read_binary(std::string_view bytes, std::size_t facets) {
     std::memcpy(values.data(), bytes.data() + header_size + i * facet_size, sizeof values);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 corner(values[3 + 3 * k], values[4 + 3 * k], values[5 + 3 * k]);
-      if (!corner.allFinite()) {
+      if (!corner.allFinite())
         throw MeshError("byte " + std::to_string(header_size + i * facet_size + 12 * (k + 1)) + ": corner " +
                         std::to_string(k) + " of facet " + std::to_string(i) + " is not finite");
-      }
       corners[k] = welder.vertex(corner);
     }
     mesh.add_triangle(corners[0], corners[1], corners[2]);
@@ -155,10 +154,9 @@ TriangleMesh read_stl(std::string_view bytes) {
     const std::size_t needed = header_size + facet_size * std::size_t{facets};
     // Binary files may start with "solid" too: the size decides.
     if (bytes.size() >= needed && is_padding(bytes.substr(needed))) return read_binary(bytes, facets);
-    if (!starts_as_ascii(bytes)) {
+    if (!starts_as_ascii(bytes))
       throw MeshError("byte 80: " + std::to_string(facets) + " facets need " + std::to_string(needed) +
                       " bytes, the file has " + std::to_string(bytes.size()));
-    }
   }
   return read_ascii(bytes);
 }

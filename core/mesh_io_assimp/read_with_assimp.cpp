@@ -27,10 +27,9 @@ SceneGraph::Part part_of(const aiMesh& mesh, std::size_t number) {
     const aiFace& face = mesh.mFaces[i];
     if (face.mNumIndices < 3) continue;  // a point or a line
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
-      if (face.mIndices[k] >= mesh.mNumVertices) {
+      if (face.mIndices[k] >= mesh.mNumVertices)
         throw MeshError("part " + std::to_string(number) + ": face " + std::to_string(i) + " names vertex " +
                         std::to_string(face.mIndices[k]) + " of " + std::to_string(mesh.mNumVertices));
-      }
       part.corners.push_back(face.mIndices[k]);
     }
     part.ends.push_back(static_cast<std::uint32_t>(part.corners.size()));
@@ -76,12 +75,10 @@ void add(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& parent
   const Eigen::Matrix4d transform = parent * matrix_of(node.mTransformation);
   if (node.mNumMeshes > 0) {
     graph.nodes.push_back({node.mName.C_Str(), transform, {node.mMeshes, node.mMeshes + node.mNumMeshes}});
-    for (const std::size_t part : graph.nodes.back().parts) {
-      if (part >= scene.mNumMeshes) {
+    for (const std::size_t part : graph.nodes.back().parts)
+      if (part >= scene.mNumMeshes)
         throw MeshError("part " + std::to_string(part) + " does not exist, the file has " +
                         std::to_string(scene.mNumMeshes));
-      }
-    }
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) add(scene, *node.mChildren[i], transform, graph);
 }

@@ -13,13 +13,11 @@ std::map<std::string, std::string> pairs_of(const std::string& detector, std::st
     const std::size_t comma = text.find(',');
     const std::string_view pair = text.substr(0, comma);
     const std::size_t equals = pair.find('=');
-    if (equals == std::string_view::npos) {
+    if (equals == std::string_view::npos)
       throw std::invalid_argument(detector + ": \"" + std::string(pair) + "\" is not key=value");
-    }
     const std::string key(pair.substr(0, equals));
-    if (!pairs.emplace(key, pair.substr(equals + 1)).second) {
+    if (!pairs.emplace(key, pair.substr(equals + 1)).second)
       throw std::invalid_argument(detector + ": " + key + " is given twice");
-    }
     if (comma == std::string_view::npos) break;
     text.remove_prefix(comma + 1);
     if (text.empty()) throw std::invalid_argument(detector + ": nothing follows the last comma");

@@ -82,10 +82,9 @@ NearSurface::Found NearSurface::touches(const Vec3& point, double radius, const 
   };
   const std::uint32_t first = last_;
   bool touching = first < list_.count() && is_sure(first);
-  if (!touching) {
+  if (!touching)
     for_each_place(list_.within(move, radius),
                    [&](std::uint32_t place) { touching = touching || (place != first && is_sure(place)); });
-  }
   const std::span<Measured> close = touching ? std::span<Measured>() : closest(radius + error);
   if (touching || touches_exactly(close, in_frames, radius, work)) {
     ++served_;

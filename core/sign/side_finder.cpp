@@ -74,10 +74,9 @@ SideFinder SideFinder::build(const TriangleMesh& mesh) {
   surface.method = open.contrary > 0 ? Method::none
                    : surface.closed  ? Method::crossings
                                      : Method::winding_number;
-  if (surface.closed) {
+  if (surface.closed)
     finder.find_simple_faces(
         sign::clear_faces(finder.normals_, finder.winding_.tree(), finder.face_of_, finder.bounds_));
-  }
   return finder;
 }
 

@@ -201,10 +201,9 @@ std::vector<std::uint32_t> breadth_first_order(const TriangleMesh& mesh) {
 
 SphereClusters cluster_spheres(const TriangleMesh& mesh, double distance, VisitOrder order,
                                unsigned threads) {
-  if (!(distance >= 0) || std::isinf(distance)) {
+  if (!(distance >= 0) || std::isinf(distance))
     throw std::invalid_argument("sphere-cluster: clustering is " + std::to_string(distance) +
                                 ", not a finite distance of at least 0");
-  }
   if (!(distance > 0)) return one_a_triangle(mesh, threads);
   const std::vector<Vec3> centers = centroids(mesh);
   const Assignment assignment = follow_leaders(mesh, centers, distance, order);

@@ -123,12 +123,10 @@ IndexedQuads catmull_clark(const IndexedFaces<N>& mesh, CatmullClarkPositions po
   const auto first_edge = static_cast<std::uint32_t>(mesh.positions.size());
   const auto first_face = static_cast<std::uint32_t>(first_edge + edges.size());
   result.faces.reserve(mesh.faces.size() * N);
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    for (std::size_t i = 0; i < N; ++i) {
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::size_t i = 0; i < N; ++i)
       result.faces.push_back({mesh.faces[f][i], first_edge + edges.edge(f, i), first_face + f,
                               first_edge + edges.edge(f, (i + N - 1) % N)});
-    }
-  }
   return result;
 }
 

@@ -46,10 +46,9 @@ void loop_edge_mask(const TriangleSurface& surface, std::uint32_t edge, std::vec
   const auto [a, b] = surface.edges().ends(edge);
   const auto sides = surface.edges().sides(edge);
   mask.assign({{a, 1. / 2}, {b, 1. / 2}});
-  if (surface.location_of_edge(edge) == TriangleSurface::Location::inside) {
+  if (surface.location_of_edge(edge) == TriangleSurface::Location::inside)
     mask.assign(
         {{a, 3. / 8}, {b, 3. / 8}, {surface.apex(sides[0]), 1. / 8}, {surface.apex(sides[1]), 1. / 8}});
-  }
 }
 
 std::vector<Vec3> loop_points(const TriangleSurface& surface, std::span<const Vec3> positions,

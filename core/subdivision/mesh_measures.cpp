@@ -38,10 +38,9 @@ int widest_axis(std::span<const Vec3> points) {
 template <class Slack>
 std::optional<double> mean_slack(std::span<const Vec3> centers, std::span<const double> radii,
                                  std::span<const Vec3> centroids, const Slack& slack) {
-  if (centers.size() != radii.size()) {
+  if (centers.size() != radii.size())
     throw std::invalid_argument(std::to_string(centers.size()) + " centres for " +
                                 std::to_string(radii.size()) + " radii");
-  }
   // Sorted along one axis, a sphere sees a slab of the centroids only.
   const int axis = widest_axis(centroids);
   std::vector<Vec3> sorted(centroids.begin(), centroids.end());

@@ -170,10 +170,9 @@ IndexedTriangles refine_by_faces(IndexedTriangles mesh, const SubdivisionOptions
 TriangleMesh subdivide(const TriangleMesh& mesh, const SubdivisionOptions& options) {
   check(options);
   IndexedTriangles welded = weld(mesh);
-  if (welded.faces.empty()) {
+  if (welded.faces.empty())
     throw MeshError("none of the " + std::to_string(mesh.size()) +
                     " triangles has three corners in different places");
-  }
   require_few_enough(welded.faces.size(), options);
   store(welded.positions, options.form);
   IndexedTriangles result = splits_faces(options.method) ? refine_by_faces(std::move(welded), options)

@@ -11,7 +11,7 @@
 #include "baselines/bullet/bullet_scene.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/baselines/answers.h"
-#include "tests/baselines/asking.h"
+#include "tests/baselines/every_form.h"
 #include "tests/baselines/exact_form.h"
 #include "tests/baselines/follows.h"
 #include "tests/baselines/meshes.h"
@@ -42,43 +42,28 @@ TriangleMesh one_triangle(double size) {
 
 TEST(Bullet, IsThePrecisionThisTestWasBuiltFor) { EXPECT_EQ(is_float, TOUCHMARK_TEST_BULLET_FLOAT == 1); }
 
+std::string name(const BulletDetector::Options& form) {
+  return std::string(form.method == Method::contact ? "contact" : "callback") +
+         (form.frame == Frame::mesh ? "_mesh" : "_fitted");
+}
+
+[[maybe_unused]] const bool tests_each_form =
+    test_each_form<BulletDetector>("EachBullet", {as_it_stands, fitted, exact, exact_fitted}, name,
+                                   {.rounding = roundings, .reach = 0.501, .radius = 0.501});
+
 class EveryBullet : public testing::TestWithParam<BulletDetector::Options> {
  protected:
   BulletDetector build(const TriangleMesh& mesh) const { return BulletDetector::build(mesh, GetParam()); }
   BulletDetector::Session session;
 };
 INSTANTIATE_TEST_SUITE_P(Bullet, EveryBullet, testing::Values(as_it_stands, fitted, exact, exact_fitted),
-                         [](const auto& parameter) {
-                           return std::string(parameter.param.method == Method::contact ? "contact"
-                                                                                        : "callback") +
-                                  (parameter.param.frame == Frame::mesh ? "_mesh" : "_fitted");
-                         });
-
-TEST_P(EveryBullet, FindsTheTriangleBelowTheProbe) {
-  expect_the_triangle_below_the_probe(build(square()), session, roundings);
-}
+                         [](const auto& parameter) { return name(parameter.param); });
 
 TEST_P(EveryBullet, AnswersAtInfiniteReach) {
   const auto contact = build(square()).nearest({{0.75, 0.75, -200}, 0}, infinity, session);
   ASSERT_TRUE(contact);
   EXPECT_NEAR(contact->distance, 200, 200 * roundings);
   EXPECT_EQ(contact->triangle, 1u);
-}
-
-TEST_P(EveryBullet, FindsNothingBeyondTheReach) {
-  expect_nothing_beyond_the_reach(build(square()), session, 0.501, 0.499);
-}
-
-TEST_P(EveryBullet, TouchesUpToTheRadius) {
-  expect_touches_up_to_the_radius(build(square()), session, 0.501);
-}
-
-TEST_P(EveryBullet, AProbeThatIsNotANumberTouchesNothing) {
-  expect_what_is_not_a_number_to_touch_nothing(build(square()), session);
-}
-
-TEST_P(EveryBullet, GivesTheIdsOfTheFile) {
-  expect_the_ids_of_the_file([this](const TriangleMesh& mesh) { return build(mesh); }, 2);
 }
 
 TEST_P(EveryBullet, FindsTheTouchingProbesOfBruteForce) {
@@ -113,10 +98,6 @@ TEST_P(EveryBullet, ASweepThatStaysAwayHitsNothing) {
   const BulletDetector detector = build(square());
   EXPECT_FALSE(detector.first_hit({{0.75, 0.75, 2}, {0.75, 0.75, 1}, 0.25}, session));
   EXPECT_FALSE(detector.first_hit({{0.75, 0.75, 2}, {0.75, 0.75, 2}, 0.25}, session));
-}
-
-TEST_P(EveryBullet, AUsedSessionAndAFreshOneGiveTheSameBits) {
-  expect_used_and_fresh_sessions_to_give_the_same_bits(build(bumps(12)));
 }
 
 TEST_P(EveryBullet, ASessionMayGoFromOneMeshToAnother) {
@@ -205,15 +186,8 @@ TEST(Bullet, FollowsVerticesThatMove) {
   const TriangleMesh mesh = bumps(12), other = moved(mesh);
   for (const BulletDetector::Options& form : std::vector<BulletDetector::Options>{
            {BulletDetector::Method::callback, BulletDetector::Frame::mesh},
-           {BulletDetector::Method::callback, BulletDetector::Frame::fitted}}) {
+           {BulletDetector::Method::callback, BulletDetector::Frame::fitted}})
     expect_to_follow<BulletDetector>(mesh, other, form);
-  }
-}
-
-TEST_P(EveryBullet, AskingTheBoxAndTheLastTriangleFirstChangesNoAnswer) {
-  expect_asking_changes_no_answer<BulletDetector>(bumps(12), GetParam());
-  expect_asking_changes_no_answer<BulletDetector>(soup(120, 4), GetParam());
-  expect_asking_to_save_work<BulletDetector>(GetParam());
 }
 
 TEST(BulletScene, FindsTheNearestBodyWhileBodiesMove) {

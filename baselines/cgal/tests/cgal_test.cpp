@@ -23,9 +23,8 @@ using Hint = CgalDetector::Hint;
 
 std::vector<Options> all_forms() {
   std::vector<Options> forms;
-  for (const Kernel kernel : {Kernel::epick, Kernel::simple, Kernel::epeck}) {
+  for (const Kernel kernel : {Kernel::epick, Kernel::simple, Kernel::epeck})
     for (const Hint hint : {Hint::none, Hint::last, Hint::bounded}) forms.push_back({kernel, hint});
-  }
   return forms;
 }
 

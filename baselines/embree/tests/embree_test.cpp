@@ -29,9 +29,8 @@ TriangleMesh soup(double scale, double offset) {
   std::vector<TriangleMesh::Corners> corners;
   for (std::uint32_t i = 0; i < 400; ++i) {
     const Vec3 place = random.point();
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 3; ++k)
       vertices.push_back(scale * (Vec3::Constant(offset) + place + (i % 9 == 0 ? 1 : 0.05) * random.point()));
-    }
     corners.push_back({3 * i, 3 * i + 1, i % 17 == 0 ? 3 * i : 3 * i + 2});
   }
   return {std::move(vertices), std::move(corners)};
@@ -45,10 +44,9 @@ TriangleMesh octahedra(std::uint32_t count, double scale) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec3 center = random.point();
     const double size = 0.05 * (1.5 + random.between(-1, 1));
-    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    for (std::uint32_t axis = 0; axis < 3; ++axis)
       for (const double sign : {-1.0, 1.0})
         vertices.push_back(scale * (center + sign * size * Vec3::Unit(axis)));
-    }
     for (std::uint32_t octant = 0; octant < 8; ++octant)
       corners.push_back({6 * i + (octant & 1), 6 * i + 2 + (octant >> 1 & 1), 6 * i + 4 + (octant >> 2)});
   }
@@ -205,9 +203,8 @@ TEST(Embree, FollowsVerticesThatMove) {
            {},
            {EmbreeDetector::Geometry::triangle_exact, EmbreeDetector::Quality::medium, true},
            {EmbreeDetector::Geometry::user, EmbreeDetector::Quality::refit, true},
-           {EmbreeDetector::Geometry::triangle_exact, EmbreeDetector::Quality::refit, false}}) {
+           {EmbreeDetector::Geometry::triangle_exact, EmbreeDetector::Quality::refit, false}})
     expect_to_follow<EmbreeDetector>(mesh, other, form);
-  }
 }
 
 }  // namespace

@@ -9,8 +9,7 @@
 #include "baselines/fcl/fcl_detector.h"
 #include "baselines/fcl/fcl_scene.h"
 #include "core/brute_force/brute_force.h"
-#include "tests/baselines/answers.h"
-#include "tests/baselines/asking.h"
+#include "tests/baselines/every_form.h"
 #include "tests/baselines/exact_form.h"
 #include "tests/baselines/follows.h"
 #include "tests/baselines/meshes.h"
@@ -46,10 +45,13 @@ std::vector<FclDetector::Options> configurations() {
 std::string name(const FclDetector::Options& options) {
   constexpr const char* volumes[] = {"kios", "obbrss", "obb", "rss", "aabb"};
   constexpr const char* methods[] = {"collide", "traverse", "distance"};
-  return std::string("bv=") + volumes[static_cast<int>(options.bv)] +
-         " method=" + methods[static_cast<int>(options.method)] +
-         (options.narrow == Narrow::exact ? " narrow=exact" : " narrow=fcl");
+  return std::string("bv_") + volumes[static_cast<int>(options.bv)] + "_method_" +
+         methods[static_cast<int>(options.method)] +
+         (options.narrow == Narrow::exact ? "_narrow_exact" : "_narrow_fcl");
 }
+
+[[maybe_unused]] const bool tests_each_form =
+    test_each_form<FclDetector>("EachFcl", configurations(), name, {.rounding = 1e-14});
 
 class EveryFcl : public testing::TestWithParam<FclDetector::Options> {
  protected:
@@ -57,16 +59,8 @@ class EveryFcl : public testing::TestWithParam<FclDetector::Options> {
   FclDetector::Session session;
 };
 
-INSTANTIATE_TEST_SUITE_P(Fcl, EveryFcl, testing::ValuesIn(configurations()), [](const auto& parameter) {
-  std::string text = name(parameter.param);
-  for (char& c : text)
-    if (c == ' ' || c == '=') c = '_';
-  return text;
-});
-
-TEST_P(EveryFcl, FindsTheTriangleBelowTheProbe) {
-  expect_the_triangle_below_the_probe(build(square()), session, 1e-14);
-}
+INSTANTIATE_TEST_SUITE_P(Fcl, EveryFcl, testing::ValuesIn(configurations()),
+                         [](const auto& parameter) { return name(parameter.param); });
 
 TEST_P(EveryFcl, AnswersAtInfiniteReach) {
   const auto contact = build(square()).nearest({{0.75, 0.75, -200}, 0}, infinity, session);
@@ -74,12 +68,6 @@ TEST_P(EveryFcl, AnswersAtInfiniteReach) {
   EXPECT_NEAR(contact->distance, 200, 1e-12);
   EXPECT_LT((contact->normal - Vec3(0, 0, -1)).norm(), 1e-12);
 }
-
-TEST_P(EveryFcl, FindsNothingBeyondTheReach) {
-  expect_nothing_beyond_the_reach(build(square()), session, 0.5, 0.499);
-}
-
-TEST_P(EveryFcl, TouchesUpToTheRadius) { expect_touches_up_to_the_radius(build(square()), session, 0.5); }
 
 TEST_P(EveryFcl, ABarePointOnTheMeshTouchesIt) {
   const FclDetector detector = build(square());
@@ -89,14 +77,6 @@ TEST_P(EveryFcl, ABarePointOnTheMeshTouchesIt) {
   EXPECT_EQ(contact->triangle, 1u);
   EXPECT_EQ(contact->distance, 0);
   EXPECT_NEAR(std::abs(contact->normal.z()), 1, 1e-14);
-}
-
-TEST_P(EveryFcl, AProbeThatIsNotANumberTouchesNothing) {
-  expect_what_is_not_a_number_to_touch_nothing(build(square()), session);
-}
-
-TEST_P(EveryFcl, GivesTheIdsOfTheFile) {
-  expect_the_ids_of_the_file([this](const TriangleMesh& mesh) { return build(mesh); }, 2);
 }
 
 TEST_P(EveryFcl, AMeshOfOneTriangleIsEnough) {
@@ -120,10 +100,6 @@ TEST_P(EveryFcl, FindsExactlyTheTouchingProbesOfBruteForce) {
     touching += expected;
   }
   EXPECT_GT(touching, 30);
-}
-
-TEST_P(EveryFcl, AUsedSessionAndAFreshOneGiveTheSameBits) {
-  expect_used_and_fresh_sessions_to_give_the_same_bits(build(bumps(12)));
 }
 
 TEST_P(EveryFcl, CountsItsBytes) {
@@ -211,15 +187,8 @@ TEST(Fcl, FollowsVerticesThatMove) {
            {FclDetector::Volume::aabb, FclDetector::Method::distance, FclDetector::Narrow::exact},
            {FclDetector::Volume::aabb, FclDetector::Method::traverse, FclDetector::Narrow::exact},
            {FclDetector::Volume::kios, FclDetector::Method::traverse, FclDetector::Narrow::exact},
-           {FclDetector::Volume::obbrss, FclDetector::Method::distance, FclDetector::Narrow::exact}}) {
+           {FclDetector::Volume::obbrss, FclDetector::Method::distance, FclDetector::Narrow::exact}})
     expect_to_follow<FclDetector>(mesh, other, form);
-  }
-}
-
-TEST_P(EveryFcl, AskingTheBoxAndTheLastTriangleFirstChangesNoAnswer) {
-  expect_asking_changes_no_answer<FclDetector>(bumps(12), GetParam());
-  expect_asking_changes_no_answer<FclDetector>(soup(120, 4), GetParam());
-  expect_asking_to_save_work<FclDetector>(GetParam());
 }
 
 /// The square |x|, |y| <= 1 at z = 0.

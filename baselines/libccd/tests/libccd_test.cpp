@@ -9,7 +9,7 @@
 #include "baselines/libccd/libccd_detector.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/baselines/answers.h"
-#include "tests/baselines/asking.h"
+#include "tests/baselines/every_form.h"
 #include "tests/baselines/meshes.h"
 #include "tests/baselines/threads.h"
 
@@ -25,15 +25,21 @@ static_assert(!AnswersSweep<LibccdDetector>, "libccd has no sweep, its name notw
 /// What GJK with EPA and MPR are good for where the ball and the triangle are of a size, in radii.
 constexpr double good = 0.01;
 
+std::string name(const LibccdDetector::Options& form) {
+  return form.algorithm == Algorithm::gjk ? "gjk" : "mpr";
+}
+
+[[maybe_unused]] const bool tests_each_form =
+    test_each_form<LibccdDetector>("EachLibccd", {{Algorithm::gjk}, {Algorithm::mpr}}, name,
+                                   {.reach = 0.51, .short_reach = 0.49, .radius = 0.501, .away = 0.5});
+
 class EveryLibccd : public testing::TestWithParam<Algorithm> {
  protected:
   LibccdDetector build(const TriangleMesh& mesh) const { return LibccdDetector::build(mesh, {GetParam()}); }
   LibccdDetector::Session session;
 };
 INSTANTIATE_TEST_SUITE_P(Libccd, EveryLibccd, testing::Values(Algorithm::gjk, Algorithm::mpr),
-                         [](const auto& parameter) {
-                           return std::string(parameter.param == Algorithm::gjk ? "gjk" : "mpr");
-                         });
+                         [](const auto& parameter) { return name({parameter.param}); });
 
 TEST_P(EveryLibccd, FindsTheTriangleBelowTheProbe) {
   const auto contact = build(square()).nearest({{0.7, 0.7, 0.5}, 0}, 1, session);
@@ -44,26 +50,10 @@ TEST_P(EveryLibccd, FindsTheTriangleBelowTheProbe) {
   EXPECT_NEAR(contact->normal.norm(), 1, 1e-12);
 }
 
-TEST_P(EveryLibccd, FindsNothingBeyondTheReach) {
-  expect_nothing_beyond_the_reach(build(square()), session, 0.51, 0.49);
-}
-
-TEST_P(EveryLibccd, TouchesUpToTheRadius) {
-  expect_touches_up_to_the_radius(build(square()), session, 0.501);
-}
-
 TEST_P(EveryLibccd, AnswersAtInfiniteReach) {
   const auto contact = build(square()).nearest({{0.7, 0.7, -20}, 0}, infinity, session);
   ASSERT_TRUE(contact);
   EXPECT_NEAR(contact->distance, 20, 20 * good);
-}
-
-TEST_P(EveryLibccd, AProbeThatIsNotANumberTouchesNothing) {
-  expect_what_is_not_a_number_to_touch_nothing(build(square()), session);
-}
-
-TEST_P(EveryLibccd, GivesTheIdsOfTheFile) {
-  expect_the_ids_of_the_file([this](const TriangleMesh& mesh) { return build(mesh); }, 0.5);
 }
 
 void expect_touches_of_brute_force(const TriangleMesh& mesh, const LibccdDetector& detector, double size) {
@@ -166,12 +156,6 @@ TEST(LibccdTraps, ABarePointOnATriangleIsOftenMissed) {
     found += detector.touches({inside, 0}, session);
   }
   EXPECT_LT(found, 50);
-}
-
-TEST_P(EveryLibccd, AskingTheBoxAndTheLastTriangleFirstChangesNoAnswer) {
-  expect_asking_changes_no_answer<LibccdDetector>(bumps(12), {GetParam()});
-  expect_asking_changes_no_answer<LibccdDetector>(soup(120, 4), {GetParam()});
-  expect_asking_to_save_work<LibccdDetector>({GetParam()});
 }
 
 }  // namespace

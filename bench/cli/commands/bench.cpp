@@ -13,19 +13,22 @@
 #include <fmt/format.h>
 
 #include "bench/cli/benchmark_flags.h"
-#include "bench/cli/commands/bench_reports.h"
 #include "bench/cli/extra/bench_suite.h"
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
+#include "bench/cli/report_files.h"
 #include "bench/cli/run_frame.h"
 #include "bench/cli/selected_workload.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/step_outputs.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
+#include "bench/measurement/result_row.h"
+#include "bench/results/google_benchmark_json.h"
 #include "bench/results/report_table.h"
 #include "bench/results/results_csv.h"
+#include "bench/results/run_json.h"
 #include "bench/results/steps_file.h"
 #include "bench/results/verification_report.h"
 #include "bench/support/checked.h"
@@ -35,6 +38,40 @@
 
 namespace touchmark::bench::cli {
 namespace {
+
+/// What `touchmark bench` leaves for other programs beside --out: Google Benchmark's JSON and Markdown.
+class BenchReports {
+ public:
+  /// Opens the files. Throws ResourceError.
+  BenchReports(const BenchmarkFlags& flags, const ReportSelectors& selectors)
+      : json_(flags.list_tests ? "" : flags.out),
+        markdown_(flags.list_tests ? "" : selectors.markdown),
+        summed_up_(flags.aggregates_only) {}
+
+  /// `verdict` is said under the table of the trajectory's rows.
+  void add_trajectory(const std::string& title, const std::vector<measurement::ResultRow>& rows,
+                      const std::string& verdict) {
+    tables_ +=
+        fmt::format("\n### {}\n\n{}{}", title, results::timing_table(rows).markdown(), code_block(verdict));
+  }
+
+  /// Throws ResourceError.
+  void write(const results::RunDescription& run, const std::vector<measurement::ResultRow>& rows) {
+    if (json_.wanted()) {
+      using results::Repetitions;
+      json_.write(
+          results::google_benchmark_json(run, rows, summed_up_ ? Repetitions::summed_up : Repetitions::each));
+    }
+    if (markdown_.wanted())
+      markdown_.write(fmt::format("## touchmark bench{}\n{}\n{}", run.finished ? "" : " (interrupted)",
+                                  tables_, results::judged_answers(rows)));
+  }
+
+ private:
+  ReportFile json_, markdown_;
+  bool summed_up_;
+  std::string tables_;
+};
 
 constexpr std::size_t faulty_rows_shown = 20;
 const std::vector<std::string> default_trajectories{"hand", "approach", "hover", "jump"};
@@ -85,32 +122,133 @@ measurement::Effort effort_for(const BenchOptions& options, const BenchmarkFlags
   return effort;
 }
 
+contestants::CheckedSelectors checked(const BenchOptions& options, const contestants::Roster& roster) {
+  contestants::CheckedSelectors selection = contestants::check(options.selectors, roster);
+  if (options.cache_lines) workers::require_line_counting();
+  return selection;
+}
+
 /// The whole run, from the checked command line to the last row.
 class BenchRun {
  public:
-  BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags);
+  BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags)
+      : flags_(flags),
+        selectors_(options.selectors),
+        trajectories_(or_else(selectors_.trajectories, default_trajectories)),
+        selection_(checked(options, context.roster)),
+        workers_(worker_options(options.workers)),
+        frame_(context, flags.list_tests ? "" : options.out),
+        reports_(flags, options.reports),
+        step_outputs_(frame_.folder ? &*frame_.folder : nullptr, flags.list_tests ? "" : options.steps_out),
+        workload_(workload_of(selectors_, mesh_of(selectors_), selection_, trajectories_,
+                              options.quick ? 5000 : 20000)),
+        shows_work_(options.work),
+        wide_(options.wide) {
+    frame_.description.query = selection_.queries.front();
+    frame_.description.seed = selection_.seed;
+    frame_.description.effort = effort_for(options, flags, wanted_rows());
+    frame_.description.core = workers_.core = results::core_for_workers();
+    workers_.flags = flags.forwarded;
+    comparison_.emplace(context.roster, workload_, selection_.contestants, workers_,
+                        frame_.description.effort, selection_.seed);
+    comparison_->set_filter([this](const std::string& trajectory, const std::string& contestant) {
+      return wanted(trajectory, contestant);
+    });
+    comparison_->set_progress([this](const std::string& trajectory, const std::string& contestant) {
+      frame_.progress.show(fmt::format("{}: {}", trajectory, contestant));
+    });
+  }
 
   /// An exit status. Throws ResourceError.
-  int run();
-  void list_cases();
+  int run() {
+    out_.write(workload::question_text(workload_, frame_.description.query) + '\n');
+    const bool finished = frame_.finishes([this] { run_trajectories(); });
+    if (!finished) std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
+    leave();
+    if (!finished) return interrupted(rows_.size());
+    std::vector<measurement::ResultRow> broken;  // what others err by is in the table
+    std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), results::claim_is_broken);
+    const std::string failures = results::list_of_failures(broken, faulty_rows_shown);
+    if (!rows_.empty()) out_.write('\n' + results::overall_verdict(rows_));
+    out_.write(
+        fmt::format("\n{}{}", results::judged_answers(rows_), failures.empty() ? "" : "\n" + failures));
+    out_.finish();
+    const bool faulty =
+        results::print_faults(rows_, [](const measurement::ResultRow& row) { return row.trajectory; });
+    return rows_.empty() ? support::exit_done : results::status_of(rows_, faulty);
+  }
+
+  void list_cases() {
+    for (const std::string& trajectory : workload_.trajectories)
+      for (const contestants::ContestantSpec& spec : selection_.contestants)
+        if (wanted(trajectory, spec.text())) out_.write(fmt::format("{}/{}\n", spec.text(), trajectory));
+  }
 
  private:
-  void run_trajectories();
-  void end_trajectory(std::size_t trace);
-  void save_so_far();
-  void save(bool finished) const;
+  void run_trajectories() {
+    for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
+      comparison_->begin(trace, frame_.description.query);
+      save_so_far();
+    }
+    for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) end_trajectory(trace);
+  }
+
+  void end_trajectory(std::size_t trace) {
+    std::vector<measurement::ResultRow> rows = comparison_->end();
+    if (rows.empty()) return;
+    for (measurement::ResultRow& row : rows)
+      row.repeat = repeat_command(selectors_, mesh_of(selectors_), trajectories_, workload_, row);
+    rows_.insert(rows_.end(), rows.begin(), rows.end());
+    save_so_far();
+    frame_.progress.clear();
+    const std::string title =
+        fmt::format("{} ({})", workload_.trajectories[trace], workload::trace_text(workload_, trace));
+    const std::string verdict = results::verdict(rows, comparison_->steadiness().back());
+    reports_.add_trajectory(title, rows, verdict);
+    const std::string table = wide_ ? results::timing_table(rows).text() : results::comparison_text(rows);
+    out_.write(fmt::format("\n{}\n{}{}", title, table, verdict));
+    const std::string cold = results::cold_table(rows);
+    if (!cold.empty()) out_.write('\n' + cold);
+    const std::string lines = results::lines_table(rows);
+    if (!lines.empty()) out_.write('\n' + lines);
+    if (shows_work_) out_.write('\n' + results::work_table(rows));
+    out_.finish();
+  }
+
+  /// What has been timed in part counts as well, should it end here.
+  void save_so_far() {
+    std::vector<measurement::ResultRow> rows = rows_;
+    std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
+    save(false);
+    rows_ = std::move(rows);
+  }
+
+  void save(bool finished) const {
+    if (!frame_.folder) return;
+    results::RunDescription description = frame_.description;
+    description.finished = finished;
+    description.steadiness = comparison_->steadiness();
+    description.left_out = comparison_->left_out();
+    frame_.folder->write(results::results_csv(description.run_id, rows_),
+                         results::run_json(description, workload_, comparison_->contestants()));
+  }
+
   /// Writes every file that the run was asked for.
-  void leave();
+  void leave() {
+    save(frame_.description.finished);
+    step_outputs_.write(frame_.description.run_id, workload_, *comparison_, rows_);
+    reports_.write(frame_.description, rows_);
+  }
+
   bool wanted(const std::string& trajectory, const std::string& contestant) const {
     return flags_.wanted(contestant + "/" + trajectory);
   }
 
   std::size_t wanted_rows() const {
     std::size_t rows = 0;
-    for (const std::string& trajectory : workload_.trajectories) {
+    for (const std::string& trajectory : workload_.trajectories)
       for (const contestants::ContestantSpec& spec : selection_.contestants)
         rows += wanted(trajectory, spec.text()) ? 1 : 0;
-    }
     return rows;
   }
 
@@ -129,119 +267,6 @@ class BenchRun {
   bool wide_;
   std::vector<measurement::ResultRow> rows_;
 };
-
-contestants::CheckedSelectors checked(const BenchOptions& options, const contestants::Roster& roster) {
-  contestants::CheckedSelectors selection = contestants::check(options.selectors, roster);
-  if (options.cache_lines) workers::require_line_counting();
-  return selection;
-}
-
-BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags)
-    : flags_(flags),
-      selectors_(options.selectors),
-      trajectories_(or_else(selectors_.trajectories, default_trajectories)),
-      selection_(checked(options, context.roster)),
-      workers_(worker_options(options.workers)),
-      frame_(context, flags.list_tests ? "" : options.out),
-      reports_(flags, options.reports),
-      step_outputs_(frame_.folder ? &*frame_.folder : nullptr, flags.list_tests ? "" : options.steps_out),
-      workload_(workload_of(selectors_, mesh_of(selectors_), selection_, trajectories_,
-                            options.quick ? 5000 : 20000)),
-      shows_work_(options.work),
-      wide_(options.wide) {
-  frame_.description.query = selection_.queries.front();
-  frame_.description.seed = selection_.seed;
-  frame_.description.effort = effort_for(options, flags, wanted_rows());
-  frame_.description.core = workers_.core = results::core_for_workers();
-  workers_.flags = flags.forwarded;
-  comparison_.emplace(context.roster, workload_, selection_.contestants, workers_, frame_.description.effort,
-                      selection_.seed);
-  comparison_->set_filter([this](const std::string& trajectory, const std::string& contestant) {
-    return wanted(trajectory, contestant);
-  });
-  comparison_->set_progress([this](const std::string& trajectory, const std::string& contestant) {
-    frame_.progress.show(fmt::format("{}: {}", trajectory, contestant));
-  });
-}
-
-void BenchRun::list_cases() {
-  for (const std::string& trajectory : workload_.trajectories) {
-    for (const contestants::ContestantSpec& spec : selection_.contestants) {
-      if (wanted(trajectory, spec.text())) out_.write(fmt::format("{}/{}\n", spec.text(), trajectory));
-    }
-  }
-}
-
-void BenchRun::save(bool finished) const {
-  if (!frame_.folder) return;
-  results::RunDescription description = frame_.description;
-  description.finished = finished;
-  description.steadiness = comparison_->steadiness();
-  description.left_out = comparison_->left_out();
-  frame_.folder->write(results::results_csv(description.run_id, rows_),
-                       results::run_json(description, workload_, comparison_->contestants()));
-}
-
-void BenchRun::leave() {
-  save(frame_.description.finished);
-  step_outputs_.write(frame_.description.run_id, workload_, *comparison_, rows_);
-  reports_.write(frame_.description, rows_);
-}
-
-/// What has been timed in part counts as well, should it end here.
-void BenchRun::save_so_far() {
-  std::vector<measurement::ResultRow> rows = rows_;
-  std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
-  save(false);
-  rows_ = std::move(rows);
-}
-
-void BenchRun::run_trajectories() {
-  for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
-    comparison_->begin(trace, frame_.description.query);
-    save_so_far();
-  }
-  for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) end_trajectory(trace);
-}
-
-void BenchRun::end_trajectory(std::size_t trace) {
-  std::vector<measurement::ResultRow> rows = comparison_->end();
-  if (rows.empty()) return;
-  for (measurement::ResultRow& row : rows)
-    row.repeat = repeat_command(selectors_, mesh_of(selectors_), trajectories_, workload_, row);
-  rows_.insert(rows_.end(), rows.begin(), rows.end());
-  save_so_far();
-  frame_.progress.clear();
-  const std::string title =
-      fmt::format("{} ({})", workload_.trajectories[trace], workload::trace_text(workload_, trace));
-  const std::string verdict = results::verdict(rows, comparison_->steadiness().back());
-  reports_.add_trajectory(title, rows, verdict);
-  const std::string table = wide_ ? results::timing_table(rows).text() : results::comparison_text(rows);
-  out_.write(fmt::format("\n{}\n{}{}", title, table, verdict));
-  const std::string cold = results::cold_table(rows);
-  if (!cold.empty()) out_.write('\n' + cold);
-  const std::string lines = results::lines_table(rows);
-  if (!lines.empty()) out_.write('\n' + lines);
-  if (shows_work_) out_.write('\n' + results::work_table(rows));
-  out_.finish();
-}
-
-int BenchRun::run() {
-  out_.write(workload::question_text(workload_, frame_.description.query) + '\n');
-  const bool finished = frame_.finishes([this] { run_trajectories(); });
-  if (!finished) std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
-  leave();
-  if (!finished) return interrupted(rows_.size());
-  std::vector<measurement::ResultRow> broken;  // what others err by is in the table
-  std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), results::claim_is_broken);
-  const std::string failures = results::list_of_failures(broken, faulty_rows_shown);
-  if (!rows_.empty()) out_.write('\n' + results::overall_verdict(rows_));
-  out_.write(fmt::format("\n{}{}", results::judged_answers(rows_), failures.empty() ? "" : "\n" + failures));
-  out_.finish();
-  const bool faulty =
-      results::print_faults(rows_, [](const measurement::ResultRow& row) { return row.trajectory; });
-  return rows_.empty() ? support::exit_done : results::status_of(rows_, faulty);
-}
 
 }  // namespace
 

@@ -22,10 +22,9 @@ void add_suite(CLI::App& command, bool& suite, std::string& cells, std::string& 
 void expect_options_of_suite(const CLI::App& command) {
   for (const char* const option : {"--scene", "--poses", "--trajectory", "--query", "--radius", "--reach",
                                    "--unit", "--columns", "--motion-scale", "--rate", "--drape", "--frontier",
-                                   "--steps-out", "--cold", "--cache-lines", "--work", "--markdown"}) {
+                                   "--steps-out", "--cold", "--cache-lines", "--work", "--markdown"})
     if (command.count(option) > 0)
       throw std::invalid_argument(fmt::format("{} does not go with --suite", option));
-  }
 }
 
 }  // namespace touchmark::bench::cli

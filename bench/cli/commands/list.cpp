@@ -46,10 +46,9 @@ std::string list(const contestants::Roster& roster) {
   for (const contestants::ContestantInfo& contestant : roster.contestants())
     text += description_of(contestant);
   text += "\nscenes: --mesh NAME[@scale=S][@offset=O][@normalize], or a mesh file\n";
-  for (const meshes::NamedMesh& named : meshes::named_meshes()) {
+  for (const meshes::NamedMesh& named : meshes::named_meshes())
     text += fmt::format("  {:<28}{}{}\n", named.name, named.description,
                         named.available ? "" : "  (not installed)");
-  }
   text +=
       "\nscenes of bodies: --scene NAME[:motion=M], a .json or .urdf file, or any file with a node tree\n";
   for (const scenes::BodySceneInfo& scene : scenes::body_scenes())

@@ -55,11 +55,10 @@ Request check(const SubdivideOptions& options) {
     throw std::invalid_argument(fmt::format("--levels {}: a whole number, 0 or more", options.levels));
   request.subdivision.levels = static_cast<int>(*levels);
   const std::optional<support::Length> threshold = support::parse_length(options.threshold);
-  if (!threshold) {
+  if (!threshold)
     throw std::invalid_argument(fmt::format(
         "--threshold {}: a length of 0 or more in mesh units, or a percentage of the box diagonal (1%)",
         options.threshold));
-  }
   request.threshold = *threshold;
   // Only the paper's tool knows a threshold, so one is taken to ask for that tool's way.
   const bool as_the_tool = options.form.empty() ? threshold->value > 0 : options.form == "meshlab";

@@ -1,5 +1,9 @@
 /// `touchmark query`: one contestant's answer to every step of one trajectory.
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "bench/cli/options.h"
 #include "bench/cli/program.h"
@@ -17,16 +22,19 @@
 #include "bench/cli/selected_workload.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/single_step.h"
-#include "bench/cli/step_visits.h"
 #include "bench/cli/worker_options.h"
 #include "bench/contestants/entry.h"
 #include "bench/contestants/roster.h"
+#include "bench/meshes/mesh_lists.h"
 #include "bench/results/answer_rows.h"
 #include "bench/support/checked.h"
 #include "bench/support/failures.h"
 #include "bench/support/files/atomic_file.h"
+#include "bench/support/files/raw_lists.h"
 #include "bench/support/files/standard_output.h"
+#include "bench/support/files/temporary_file.h"
 #include "bench/support/numbers.h"
+#include "bench/support/system/beside_this_program.h"
 #include "bench/support/system/interrupt.h"
 #include "bench/workers/contestant_process.h"
 #include "bench/workload/query_name.h"
@@ -34,6 +42,46 @@
 
 namespace touchmark::bench::cli {
 namespace {
+
+using support::put_list, support::put_text;
+
+void put_trace(std::FILE* to, const std::vector<workload::Step>& trace) {
+  std::vector<std::array<double, 5>> steps;
+  for (const workload::Step& step : trace) {
+    const Vec3& center = step.probe.center;
+    steps.push_back({center.x(), center.y(), center.z(), step.probe.radius, step.reach});
+  }
+  put_list(to, std::span<const std::array<double, 5>>(steps));
+}
+
+/// Becomes the program touchmark-tracer, which asks the first trajectory's steps and writes what the detector
+/// looked at in these to standard output, as JSON. Throws std::invalid_argument for a step that there is not,
+/// a scene of bodies, and where that program is not beside this one; ResourceError where it cannot be run.
+[[noreturn]] void print_visits(const workload::Workload& workload, workload::Query query,
+                               const std::string& detector, std::vector<std::uint64_t> steps) {
+  const std::vector<workload::Step>& trace = workload.traces.front();
+  std::ranges::sort(steps);
+  if (workload.scene) throw std::invalid_argument("--visits is of a mesh, and does not go with --scene");
+  if (steps.back() >= trace.size())
+    throw std::invalid_argument(
+        fmt::format("--visits \"{}\" is none of the {} steps, which begin at 0", steps.back(), trace.size()));
+  std::string program = support::beside_this_program("touchmark-tracer");
+  if (!std::filesystem::exists(program))
+    throw std::invalid_argument(
+        "touchmark-tracer is missing; scripts/build-program touchmark-tracer builds it");
+  const support::File input = support::temporary_file();
+  meshes::put_mesh(input.get(), workload.mesh);
+  put_text(input.get(), workload::name_of(query));
+  put_trace(input.get(), trace);
+  put_text(input.get(), detector);
+  put_list(input.get(), std::span<const std::uint64_t>(steps));
+  std::array<char*, 2> arguments{program.data(), nullptr};
+  if (std::fflush(input.get()) == 0 && std::ferror(input.get()) == 0 &&
+      std::fseek(input.get(), 0, SEEK_SET) == 0 && dup2(fileno(input.get()), STDIN_FILENO) >= 0)
+    execv(program.c_str(), arguments.data());
+  throw support::ResourceError(
+      fmt::format("{} cannot be run, or the folder of temporary files is full", program));
+}
 
 constexpr std::size_t block_size = 1 << 16;  // bytes of rows written at once
 
@@ -70,14 +118,12 @@ class RowSink {
 };
 
 void check_there_is_one(const contestants::Selectors& selectors) {
-  if (selectors.detectors.size() != 1) {
+  if (selectors.detectors.size() != 1)
     throw std::invalid_argument(
         fmt::format("query needs exactly one --detector; {} given", selectors.detectors.size()));
-  }
-  if (selectors.trajectories.size() > 1) {
+  if (selectors.trajectories.size() > 1)
     throw std::invalid_argument(
         fmt::format("query follows one --trajectory; {} given", selectors.trajectories.size()));
-  }
 }
 
 /// A whole trajectory takes a slow contestant its time; there is Ctrl-C, and --timeout where nobody watches.

@@ -52,9 +52,8 @@ std::vector<std::string> meshes_for(const VerifyOptions& options) {
   std::vector<std::string> meshes;
   for (const meshes::NamedMesh& named : meshes::named_meshes()) {
     if (named.example.empty()) continue;
-    for (const char* modifier : {"", "@offset=1e6", "@scale=1e-6", "@scale=1e6"}) {
+    for (const char* modifier : {"", "@offset=1e6", "@scale=1e-6", "@scale=1e6"})
       meshes.push_back(named.example + modifier);
-    }
   }
   return meshes;
 }
@@ -84,11 +83,55 @@ class VerifyRun {
     reproducers_.emplace(options.reproduce, roster_, workers_);
   }
 
-  int run();
+  int run() {
+    frame_.finishes([this] {
+      for (const std::string& mesh : meshes_for(options_)) verify_mesh(mesh);
+    });
+    return report();
+  }
 
  private:
-  void verify_mesh(const std::string& mesh);
-  int report();
+  void verify_mesh(const std::string& mesh) {
+    const std::size_t steps = options_.selectors.meshes.empty() ? steps_on_each : steps_on_a_mesh;
+    const workload::Workload workload =
+        workload_of(options_.selectors, mesh, selection_, trajectories_for(options_), steps);
+    measurement::Comparison comparison(roster_, workload, selection_.contestants, workers_,
+                                       measurement::accuracy_effort, selection_.seed);
+    comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
+      frame_.progress.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
+    });
+    const std::size_t before = rows_.size();
+    const auto say_how_to_repeat = [&] {
+      for (std::size_t i = before; i < rows_.size(); ++i)
+        rows_[i].repeat =
+            repeat_command(options_.selectors, mesh, trajectories_for(options_), workload, rows_[i]);
+    };
+    try {
+      comparison.run_all(selection_.queries, rows_);
+    } catch (const support::Interrupted&) {
+      say_how_to_repeat();
+      throw;
+    }
+    say_how_to_repeat();
+    frame_.progress.clear();
+    if (reproducers_) reproducers_->add(workload, std::span(rows_).subspan(before));
+  }
+
+  int report() {
+    const bool finished = frame_.description.finished;
+    const std::string failures = results::list_of_failures(rows_, failures_shown);
+    const support::Table table = results::verification_table(rows_);
+    const std::string judged = results::judged_answers(rows_);
+    support::StandardOutput().write(table.text() + judged + (failures.empty() ? "" : "\n" + failures));
+    if (finished && junit_.wanted())
+      junit_.write(results::junit_xml("touchmark verify", results::cases_of(rows_)));
+    if (markdown_.wanted())
+      markdown_.write(fmt::format("## touchmark verify{}\n\n{}\n{}{}", finished ? "" : " (interrupted)",
+                                  table.markdown(), judged, code_block(failures)));
+    if (frame_.folder) frame_.folder->write(results::results_csv(frame_.description.run_id, rows_));
+    if (!finished) return interrupted(rows_.size());
+    return results::status_of(rows_, std::ranges::any_of(rows_, results::claim_is_broken));
+  }
 
   const contestants::Roster& roster_;
   VerifyOptions options_;
@@ -99,55 +142,6 @@ class VerifyRun {
   std::optional<Reproducers> reproducers_;
   std::vector<measurement::ResultRow> rows_;
 };
-
-void VerifyRun::verify_mesh(const std::string& mesh) {
-  const std::size_t steps = options_.selectors.meshes.empty() ? steps_on_each : steps_on_a_mesh;
-  const workload::Workload workload =
-      workload_of(options_.selectors, mesh, selection_, trajectories_for(options_), steps);
-  measurement::Comparison comparison(roster_, workload, selection_.contestants, workers_,
-                                     measurement::accuracy_effort, selection_.seed);
-  comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
-    frame_.progress.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
-  });
-  const std::size_t before = rows_.size();
-  const auto say_how_to_repeat = [&] {
-    for (std::size_t i = before; i < rows_.size(); ++i)
-      rows_[i].repeat =
-          repeat_command(options_.selectors, mesh, trajectories_for(options_), workload, rows_[i]);
-  };
-  try {
-    comparison.run_all(selection_.queries, rows_);
-  } catch (const support::Interrupted&) {
-    say_how_to_repeat();
-    throw;
-  }
-  say_how_to_repeat();
-  frame_.progress.clear();
-  if (reproducers_) reproducers_->add(workload, std::span(rows_).subspan(before));
-}
-
-int VerifyRun::report() {
-  const bool finished = frame_.description.finished;
-  const std::string failures = results::list_of_failures(rows_, failures_shown);
-  const support::Table table = results::verification_table(rows_);
-  const std::string judged = results::judged_answers(rows_);
-  support::StandardOutput().write(table.text() + judged + (failures.empty() ? "" : "\n" + failures));
-  if (finished && junit_.wanted())
-    junit_.write(results::junit_xml("touchmark verify", results::cases_of(rows_)));
-  if (markdown_.wanted())
-    markdown_.write(fmt::format("## touchmark verify{}\n\n{}\n{}{}", finished ? "" : " (interrupted)",
-                                table.markdown(), judged, code_block(failures)));
-  if (frame_.folder) frame_.folder->write(results::results_csv(frame_.description.run_id, rows_));
-  if (!finished) return interrupted(rows_.size());
-  return results::status_of(rows_, std::any_of(rows_.begin(), rows_.end(), results::claim_is_broken));
-}
-
-int VerifyRun::run() {
-  frame_.finishes([this] {
-    for (const std::string& mesh : meshes_for(options_)) verify_mesh(mesh);
-  });
-  return report();
-}
 
 }  // namespace
 

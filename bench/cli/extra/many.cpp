@@ -45,11 +45,10 @@ std::vector<contestants::ContestantSpec> checked_contestants(const std::vector<s
                                                              const contestants::Roster& roster) {
   std::vector<contestants::ContestantSpec> specs = roster.parse_all(names);
   if (!specs.empty()) return specs;
-  for (const contestants::ContestantInfo& info : roster.contestants()) {
+  for (const contestants::ContestantInfo& info : roster.contestants())
     if (info.built() && (info.name == "sphere-cluster" || info.name == "grid-group" ||
                          info.name == "aabb-tree" || info.name == "embree"))
       specs.push_back(roster.parse(info.name));
-  }
   return specs;
 }
 

@@ -37,14 +37,13 @@ std::vector<batch::FoundJob> jobs_of(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
     std::vector<std::string> paths;
     try {
-      for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      for (const fs::directory_entry& entry : fs::directory_iterator(folder))
         if (is_job_file(entry.path())) paths.push_back(entry.path().string());
-      }
     } catch (const fs::filesystem_error& error) {
       throw std::invalid_argument(fmt::format("{}: {}", folder, error.code().message()));
     }
     if (paths.empty()) throw std::invalid_argument(fmt::format("{}: no finished job in it", folder));
-    std::sort(paths.begin(), paths.end());
+    std::ranges::sort(paths);
     for (const std::string& path : paths) jobs.push_back(batch::found_job(path));
   }
   return jobs;
@@ -62,9 +61,8 @@ void merge(const MergeOptions& options) {
   std::vector<batch::FoundJob> jobs = jobs_of(options.paths);
   if (!options.machine.empty()) keep_machine(jobs, options.machine);
   if (!options.accuracy_only) batch::expect_one_machine(jobs);
-  for (batch::FoundJob& job : jobs) {
+  for (batch::FoundJob& job : jobs)
     if (options.accuracy_only || !job.timed) batch::drop_times(job);
-  }
   jobs = batch::in_order(std::move(jobs), manifest);
   for (batch::FoundJob& job : jobs) batch::note_source(job);
   support::AtomicFile file(options.out);

@@ -37,9 +37,8 @@ std::vector<workload::Query> checked_queries(const std::vector<std::string>& nam
   std::vector<workload::Query> queries;
   for (const std::string& name : names) {
     const std::optional<workload::Query> query = workload::query_named(name);
-    if ((!query && name != "all") || query == workload::Query::moving) {
+    if ((!query && name != "all") || query == workload::Query::moving)
       throw support::bad_value("--query", name, "one of touches, nearest, sweep, all");
-    }
     if (query) queries.push_back(*query);
     if (name == "all")
       queries.insert(queries.end(), workload::all_queries.begin(), workload::all_queries.end());
@@ -63,10 +62,61 @@ class Planner {
   }
 
  private:
-  void plan_mesh(const std::string& mesh);
+  void plan_mesh(const std::string& mesh) {
+    const TriangleMesh loaded = meshes::load_mesh(mesh, options_.normalize);
+    contestants::Selectors selectors;
+    selectors.detectors = options_.detectors;
+    selectors.steps = options_.steps;
+    selectors.motion = options_.motion;
+    for (const std::string& radius : or_else(options_.radii, {selectors.radius})) {
+      for (const std::string& reach : or_else(options_.reaches, {""})) {
+        for (const std::string& seed : or_else(options_.seeds, {selectors.seed})) {
+          selectors.radius = radius;
+          selectors.reach = reach;
+          selectors.seed = seed;
+          plan_traces(mesh, loaded, selectors);
+        }
+      }
+    }
+  }
+
   void plan_traces(const std::string& mesh, const TriangleMesh& loaded,
-                   const contestants::Selectors& selectors);
-  void add_mesh(batch::BatchMesh planned, const std::vector<contestants::ContestantSpec>& contestants);
+                   const contestants::Selectors& selectors) {
+    const contestants::CheckedSelectors selection = contestants::check(selectors, roster_);
+    const std::vector<std::string> trajectories =
+        or_else(options_.trajectories, {"slide", "approach", "hover", "jump"});
+    progress_.show(fmt::format("{}, radius {}, seed {}", mesh, selectors.radius, selectors.seed));
+    const std::size_t default_steps = options_.effort == "quick" ? 5000 : 20000;
+    const workload::Workload workload =
+        workload::make_workload(mesh, loaded, selection, trajectories, default_steps);
+    for (std::size_t i = 0; i < trajectories.size(); ++i) {
+      for (const workload::Query query : queries_) {
+        batch::BatchMesh planned{mesh,
+                                 options_.normalize,
+                                 workload::hash_of(loaded),
+                                 trajectories[i],
+                                 workload::hash_of(workload.traces[i]),
+                                 workload.traces[i].size(),
+                                 selection.seed,
+                                 selectors.radius,
+                                 selectors.reach,
+                                 query,
+                                 {},
+                                 options_.motion};
+        add_mesh(std::move(planned), selection.contestants);
+      }
+    }
+  }
+
+  /// A job that was planned before, by its content, is not planned again.
+  void add_mesh(batch::BatchMesh planned, const std::vector<contestants::ContestantSpec>& contestants) {
+    for (const contestants::ContestantSpec& contestant : contestants) {
+      const std::string id =
+          batch::job_id(planned, batch::identity_of(contestant), manifest_.effort, manifest_.version);
+      if (ids_.insert(id).second) planned.jobs.push_back({id, contestant.text()});
+    }
+    if (!planned.jobs.empty()) manifest_.meshes.push_back(std::move(planned));
+  }
 
   const contestants::Roster& roster_;
   const PlanOptions& options_;
@@ -75,63 +125,6 @@ class Planner {
   std::set<std::string> ids_;
   support::ProgressLine progress_;
 };
-
-void Planner::plan_mesh(const std::string& mesh) {
-  const TriangleMesh loaded = meshes::load_mesh(mesh, options_.normalize);
-  contestants::Selectors selectors;
-  selectors.detectors = options_.detectors;
-  selectors.steps = options_.steps;
-  selectors.motion = options_.motion;
-  for (const std::string& radius : or_else(options_.radii, {selectors.radius})) {
-    for (const std::string& reach : or_else(options_.reaches, {""})) {
-      for (const std::string& seed : or_else(options_.seeds, {selectors.seed})) {
-        selectors.radius = radius;
-        selectors.reach = reach;
-        selectors.seed = seed;
-        plan_traces(mesh, loaded, selectors);
-      }
-    }
-  }
-}
-
-void Planner::plan_traces(const std::string& mesh, const TriangleMesh& loaded,
-                          const contestants::Selectors& selectors) {
-  const contestants::CheckedSelectors selection = contestants::check(selectors, roster_);
-  const std::vector<std::string> trajectories =
-      or_else(options_.trajectories, {"slide", "approach", "hover", "jump"});
-  progress_.show(fmt::format("{}, radius {}, seed {}", mesh, selectors.radius, selectors.seed));
-  const std::size_t default_steps = options_.effort == "quick" ? 5000 : 20000;
-  const workload::Workload workload =
-      workload::make_workload(mesh, loaded, selection, trajectories, default_steps);
-  for (std::size_t i = 0; i < trajectories.size(); ++i) {
-    for (const workload::Query query : queries_) {
-      batch::BatchMesh planned{mesh,
-                               options_.normalize,
-                               workload::hash_of(loaded),
-                               trajectories[i],
-                               workload::hash_of(workload.traces[i]),
-                               workload.traces[i].size(),
-                               selection.seed,
-                               selectors.radius,
-                               selectors.reach,
-                               query,
-                               {},
-                               options_.motion};
-      add_mesh(std::move(planned), selection.contestants);
-    }
-  }
-}
-
-/// A job that was planned before, by its content, is not planned again.
-void Planner::add_mesh(batch::BatchMesh planned,
-                       const std::vector<contestants::ContestantSpec>& contestants) {
-  for (const contestants::ContestantSpec& contestant : contestants) {
-    const std::string id =
-        batch::job_id(planned, batch::identity_of(contestant), manifest_.effort, manifest_.version);
-    if (ids_.insert(id).second) planned.jobs.push_back({id, contestant.text()});
-  }
-  if (!planned.jobs.empty()) manifest_.meshes.push_back(std::move(planned));
-}
 
 void run(const contestants::Roster& roster, const PlanOptions& options) {
   const batch::Manifest manifest = Planner(roster, options).plan();

@@ -142,8 +142,8 @@ int ProxyCommand::run() {
   });
   report();
   if (!finished) return interrupted(run_.scores().size());
-  const bool broken = std::any_of(run_.scores().begin(), run_.scores().end(),
-                                  [](const proxy::Score& score) { return score.broken(); });
+  const bool broken =
+      std::ranges::any_of(run_.scores(), [](const proxy::Score& score) { return score.broken(); });
   return broken ? support::exit_check_failed : support::exit_done;
 }
 

@@ -70,21 +70,135 @@ std::string slowed(const std::string& trajectory, double part) {
 
 class ScaleRun {
  public:
-  ScaleRun(const ProgramContext& context, const ScaleOptions& options);
+  ScaleRun(const ProgramContext& context, const ScaleOptions& options)
+      : roster_(context.roster),
+        options_(options),
+        selection_(contestants::check(options.selectors, context.roster, &contestants::Forms::scaled)),
+        limit_s_(support::checked_positive("--limit-seconds", options.limit, support::Infinity::allowed)),
+        shrinks_(checked_shrinks(options.shrink)),
+        meshes_(scaling::meshes_of_sizes(or_else(options.selectors.meshes, {"noisy-sphere"}), options.sizes,
+                                         options.quick ? quick_sizes : default_sizes)),
+        workers_(worker_options(options.workers)),
+        frame_(context, options.out) {
+    // A name that is wrong should not be found out after the smaller meshes.
+    for (const std::string& mesh : meshes_)
+      if (!scaling::comes_in_sizes(scaling::family_of(mesh)))
+        meshes::load_mesh(mesh, options.selectors.normalize);
+    if (options.workers.timeout.empty()) workers_.build_timeout = default_build_timeout;
+    frame_.description.query = selection_.queries.front();
+    frame_.description.seed = selection_.seed;
+    if (options.quick) frame_.description.effort = measurement::quick_effort;
+    frame_.description.core = workers_.core = results::core_for_workers();
+  }
 
   /// An exit status. Throws ResourceError, std::invalid_argument or MeshError.
-  int run();
+  int run() {
+    const bool finished = frame_.finishes([this] {
+      for (const std::string& mesh : meshes_) run_mesh(mesh);
+    });
+    out_.write(scaling::growth_table(scaling::growth_of(rows_, shrinks_)));
+    if (!finished) return interrupted(fmt::format("the rows of {} finished meshes are kept", runs_.size()));
+    const auto where = [](const measurement::ResultRow& row) { return row.mesh + ", " + row.trajectory; };
+    return results::print_faults(rows_, where) ? support::exit_check_failed : support::exit_done;
+  }
 
  private:
-  void run_mesh(const std::string& name);
-  double edges_of_first(const std::string& name, const TriangleMesh& mesh);
+  void run_mesh(const std::string& name) {
+    frame_.progress.show(fmt::format("{}: making the mesh and the trajectories", name));
+    const contestants::Selectors& selectors = options_.selectors;
+    const std::vector<std::string> asked = or_else(selectors.trajectories, {"slide"});
+    TriangleMesh mesh = meshes::load_mesh(name, selectors.normalize);
+    contestants::CheckedSelectors selection = selection_;
+    std::vector<std::string> moves = asked;
+    if (shrinks_ != scaling::Shrinks::nothing) {
+      const double part = edges_of_first(name, mesh);
+      selection.radius.value *= part;
+      if (selection.reach) selection.reach->value *= part;
+      if (shrinks_ == scaling::Shrinks::reach_and_motion)
+        for (std::string& move : moves) move = slowed(move, part);
+    }
+    workload::Workload workload = workload::make_workload(results::without_directories(name), std::move(mesh),
+                                                          selection, moves, options_.quick ? 5000 : 20000);
+    // One curve, whatever speed it has on this mesh.
+    for (std::size_t i = 0; i < asked.size(); ++i)
+      if (moves[i] != asked[i]) workload.trajectories[i] = asked[i];
+    frame_.progress.show(fmt::format("{}: preparing the oracle", name));
+    measurement::Comparison comparison(roster_, workload, selection_.contestants, workers_,
+                                       frame_.description.effort, selection_.seed);
+    comparison.set_schedule(schedule_for(workload));
+    comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
+      frame_.progress.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
+    });
+    skip_known(comparison, workload.mesh.size());
+    std::vector<measurement::ResultRow> rows;
+    for (std::size_t trace = 0; trace < workload.traces.size(); ++trace)
+      std::ranges::move(run_trace(comparison, workload, trace), std::back_inserter(rows));
+    note_too_much(comparison, rows);
+    std::ranges::move(rows, std::back_inserter(rows_));
+    frame_.description.steadiness = comparison.steadiness();
+    runs_.push_back(results::run_json(frame_.description, workload, comparison.contestants()));
+    save(runs_.size() == meshes_.size());
+  }
+
+  /// Returns the edges of a surface of so many triangles over those of the first of its family.
+  double edges_of_first(const std::string& name, const TriangleMesh& mesh) {
+    const auto triangles = static_cast<double>(mesh.size());
+    const auto first = first_triangles_.try_emplace(scaling::family_of(name), triangles).first;
+    return std::sqrt(first->second / triangles);
+  }
+
   std::vector<measurement::ResultRow> run_trace(measurement::Comparison& comparison,
-                                                const workload::Workload& workload, std::size_t trace);
-  void skip_known(measurement::Comparison& comparison, std::size_t triangles);
+                                                const workload::Workload& workload, std::size_t trace) {
+    std::vector<measurement::ResultRow> rows = comparison.run(trace, frame_.description.query);
+    frame_.progress.clear();
+    out_.write(fmt::format("\n{}, {} ({})\n{}{}", workload.mesh_name, workload.trajectories[trace],
+                           workload::trace_text(workload, trace), results::comparison_text(rows),
+                           results::verdict(rows, comparison.steadiness().back())));
+    out_.finish();
+    return rows;
+  }
+
+  void skip_known(measurement::Comparison& comparison, std::size_t triangles) {
+    for (const contestants::ContestantSpec& spec : selection_.contestants) {
+      const auto found = too_much_.find(spec.text());
+      if (found == too_much_.end() || found->second.triangles >= triangles) continue;
+      comparison.skip(spec, found->second.status);
+      frame_.progress.clear();
+      fmt::print(stderr, "touchmark: {}: {}\n", spec.text(), found->second.status);
+    }
+  }
+
+  /// Contestants that took too long, and those that did not get through at all.
   void note_too_much(const measurement::Comparison& comparison,
-                     const std::vector<measurement::ResultRow>& rows);
-  measurement::Schedule schedule_for(const workload::Workload& workload) const;
-  void save(bool finished) const;
+                     const std::vector<measurement::ResultRow>& rows) {
+    const auto note = [&](const std::string& contestant, const std::string& why) {
+      const measurement::ResultRow& row = rows.front();
+      too_much_.try_emplace(contestant,
+                            TooMuch{row.triangles, fmt::format("skipped: {} on {}", why, row.mesh)});
+    };
+    for (const measurement::ResultRow& row : rows)
+      if (row.status != "ok" && row.status != "unsupported" && !row.status.starts_with("skipped"))
+        note(row.contestant(), row.status);
+    for (const workers::ContestantProcess& process : comparison.contestants())
+      if (process.busy_s() > limit_s_)
+        note(process.spec().text(), fmt::format("took {:.3g} s", process.busy_s()));
+  }
+
+  /// All at once while there is room, so that times of one mesh compare as those of `touchmark bench` do.
+  measurement::Schedule schedule_for(const workload::Workload& workload) const {
+    const double all = bytes_per_triangle * static_cast<double>(workload.mesh.size()) *
+                       static_cast<double>(selection_.contestants.size());
+    const std::optional<std::uint64_t> available = support::available_memory();
+    return available && all > static_cast<double>(*available) / 2 ? measurement::Schedule::sequential
+                                                                  : measurement::Schedule::interleaved;
+  }
+
+  void save(bool finished) const {
+    if (!frame_.folder) return;
+    frame_.folder->write(results::results_csv(frame_.description.run_id, rows_),
+                         results::joined_run_json(runs_, finished));
+    frame_.folder->write_file("scaling.csv", scaling::scaling_csv(scaling::growth_of(rows_, shrinks_)));
+  }
 
   /// The smallest mesh that was too much for a contestant.
   struct TooMuch {
@@ -106,138 +220,6 @@ class ScaleRun {
   std::vector<measurement::ResultRow> rows_;
   std::vector<std::string> runs_;  // run.json of each mesh
 };
-
-ScaleRun::ScaleRun(const ProgramContext& context, const ScaleOptions& options)
-    : roster_(context.roster),
-      options_(options),
-      selection_(contestants::check(options.selectors, context.roster, &contestants::Forms::scaled)),
-      limit_s_(support::checked_positive("--limit-seconds", options.limit, support::Infinity::allowed)),
-      shrinks_(checked_shrinks(options.shrink)),
-      meshes_(scaling::meshes_of_sizes(or_else(options.selectors.meshes, {"noisy-sphere"}), options.sizes,
-                                       options.quick ? quick_sizes : default_sizes)),
-      workers_(worker_options(options.workers)),
-      frame_(context, options.out) {
-  // A name that is wrong should not be found out after the smaller meshes.
-  for (const std::string& mesh : meshes_) {
-    if (!scaling::comes_in_sizes(scaling::family_of(mesh)))
-      meshes::load_mesh(mesh, options.selectors.normalize);
-  }
-  if (options.workers.timeout.empty()) workers_.build_timeout = default_build_timeout;
-  frame_.description.query = selection_.queries.front();
-  frame_.description.seed = selection_.seed;
-  if (options.quick) frame_.description.effort = measurement::quick_effort;
-  frame_.description.core = workers_.core = results::core_for_workers();
-}
-
-/// All at once while there is room, so that times of one mesh compare as those of `touchmark bench` do.
-measurement::Schedule ScaleRun::schedule_for(const workload::Workload& workload) const {
-  const double all = bytes_per_triangle * static_cast<double>(workload.mesh.size()) *
-                     static_cast<double>(selection_.contestants.size());
-  const std::optional<std::uint64_t> available = support::available_memory();
-  return available && all > static_cast<double>(*available) / 2 ? measurement::Schedule::sequential
-                                                                : measurement::Schedule::interleaved;
-}
-
-void ScaleRun::skip_known(measurement::Comparison& comparison, std::size_t triangles) {
-  for (const contestants::ContestantSpec& spec : selection_.contestants) {
-    const auto found = too_much_.find(spec.text());
-    if (found == too_much_.end() || found->second.triangles >= triangles) continue;
-    comparison.skip(spec, found->second.status);
-    frame_.progress.clear();
-    fmt::print(stderr, "touchmark: {}: {}\n", spec.text(), found->second.status);
-  }
-}
-
-/// Contestants that took too long, and those that did not get through at all.
-void ScaleRun::note_too_much(const measurement::Comparison& comparison,
-                             const std::vector<measurement::ResultRow>& rows) {
-  const auto note = [&](const std::string& contestant, const std::string& why) {
-    const measurement::ResultRow& row = rows.front();
-    too_much_.try_emplace(contestant,
-                          TooMuch{row.triangles, fmt::format("skipped: {} on {}", why, row.mesh)});
-  };
-  for (const measurement::ResultRow& row : rows) {
-    if (row.status != "ok" && row.status != "unsupported" && !row.status.starts_with("skipped"))
-      note(row.contestant(), row.status);
-  }
-  for (const workers::ContestantProcess& process : comparison.contestants()) {
-    if (process.busy_s() > limit_s_)
-      note(process.spec().text(), fmt::format("took {:.3g} s", process.busy_s()));
-  }
-}
-
-std::vector<measurement::ResultRow> ScaleRun::run_trace(measurement::Comparison& comparison,
-                                                        const workload::Workload& workload,
-                                                        std::size_t trace) {
-  std::vector<measurement::ResultRow> rows = comparison.run(trace, frame_.description.query);
-  frame_.progress.clear();
-  out_.write(fmt::format("\n{}, {} ({})\n{}{}", workload.mesh_name, workload.trajectories[trace],
-                         workload::trace_text(workload, trace), results::comparison_text(rows),
-                         results::verdict(rows, comparison.steadiness().back())));
-  out_.finish();
-  return rows;
-}
-
-/// Returns the edges of a surface of so many triangles over those of the first of its family.
-double ScaleRun::edges_of_first(const std::string& name, const TriangleMesh& mesh) {
-  const auto triangles = static_cast<double>(mesh.size());
-  const auto first = first_triangles_.try_emplace(scaling::family_of(name), triangles).first;
-  return std::sqrt(first->second / triangles);
-}
-
-void ScaleRun::run_mesh(const std::string& name) {
-  frame_.progress.show(fmt::format("{}: making the mesh and the trajectories", name));
-  const contestants::Selectors& selectors = options_.selectors;
-  const std::vector<std::string> asked = or_else(selectors.trajectories, {"slide"});
-  TriangleMesh mesh = meshes::load_mesh(name, selectors.normalize);
-  contestants::CheckedSelectors selection = selection_;
-  std::vector<std::string> moves = asked;
-  if (shrinks_ != scaling::Shrinks::nothing) {
-    const double part = edges_of_first(name, mesh);
-    selection.radius.value *= part;
-    if (selection.reach) selection.reach->value *= part;
-    if (shrinks_ == scaling::Shrinks::reach_and_motion)
-      for (std::string& move : moves) move = slowed(move, part);
-  }
-  workload::Workload workload = workload::make_workload(results::without_directories(name), std::move(mesh),
-                                                        selection, moves, options_.quick ? 5000 : 20000);
-  // One curve, whatever speed it has on this mesh.
-  for (std::size_t i = 0; i < asked.size(); ++i)
-    if (moves[i] != asked[i]) workload.trajectories[i] = asked[i];
-  frame_.progress.show(fmt::format("{}: preparing the oracle", name));
-  measurement::Comparison comparison(roster_, workload, selection_.contestants, workers_,
-                                     frame_.description.effort, selection_.seed);
-  comparison.set_schedule(schedule_for(workload));
-  comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
-    frame_.progress.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
-  });
-  skip_known(comparison, workload.mesh.size());
-  std::vector<measurement::ResultRow> rows;
-  for (std::size_t trace = 0; trace < workload.traces.size(); ++trace)
-    std::ranges::move(run_trace(comparison, workload, trace), std::back_inserter(rows));
-  note_too_much(comparison, rows);
-  std::ranges::move(rows, std::back_inserter(rows_));
-  frame_.description.steadiness = comparison.steadiness();
-  runs_.push_back(results::run_json(frame_.description, workload, comparison.contestants()));
-  save(runs_.size() == meshes_.size());
-}
-
-void ScaleRun::save(bool finished) const {
-  if (!frame_.folder) return;
-  frame_.folder->write(results::results_csv(frame_.description.run_id, rows_),
-                       results::joined_run_json(runs_, finished));
-  frame_.folder->write_file("scaling.csv", scaling::scaling_csv(scaling::growth_of(rows_, shrinks_)));
-}
-
-int ScaleRun::run() {
-  const bool finished = frame_.finishes([this] {
-    for (const std::string& mesh : meshes_) run_mesh(mesh);
-  });
-  out_.write(scaling::growth_table(scaling::growth_of(rows_, shrinks_)));
-  if (!finished) return interrupted(fmt::format("the rows of {} finished meshes are kept", runs_.size()));
-  const auto where = [](const measurement::ResultRow& row) { return row.mesh + ", " + row.trajectory; };
-  return results::print_faults(rows_, where) ? support::exit_check_failed : support::exit_done;
-}
 
 }  // namespace
 

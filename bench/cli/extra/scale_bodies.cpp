@@ -29,10 +29,9 @@ std::vector<contestants::ContestantSpec> contestants_of(const std::vector<std::s
                                                         const contestants::Roster& roster) {
   std::vector<contestants::ContestantSpec> specs = roster.parse_all(names);
   if (!specs.empty()) return specs;
-  for (contestants::ContestantSpec& spec : roster.forms(&contestants::Forms::scenes)) {
+  for (contestants::ContestantSpec& spec : roster.forms(&contestants::Forms::scenes))
     if (spec.name == "sphere-cluster" || spec.name == "looped" || !roster.find(spec.name).ours)
       specs.push_back(std::move(spec));
-  }
   return specs;
 }
 

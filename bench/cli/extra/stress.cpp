@@ -87,67 +87,59 @@ class StressCommand {
     frame_.description.seed = run_.request().seed;
   }
 
-  int run();
+  int run() {
+    const bool finished = frame_.finishes(
+        [this] { run_.run([this](const std::string& what) { frame_.progress.show(what); }); });
+    report();
+    if (!finished) return interrupted(run_.scores().size());
+    const std::vector<results::Summary> summaries(run_.scores().begin(), run_.scores().end());
+    return results::status_of(
+        summaries, std::ranges::any_of(summaries, [](const results::Summary& one) { return one.broken; }));
+  }
 
  private:
-  void report();
+  void report() {
+    const bool finished = frame_.description.finished;
+    const std::string faults = results::list_of_failures(run_.faults(), faults_shown);
+    const support::Table table = stress::stress_table(run_.scores());
+    const std::string legend = stress::stress_legend(run_.scores());
+    support::StandardOutput().write(table.text() + legend + (faults.empty() ? "" : "\n" + faults));
+    if (finished && junit_.wanted())
+      junit_.write(results::junit_xml("touchmark stress", stress::cases_of(run_.scores())));
+    if (markdown_.wanted())
+      markdown_.write(fmt::format("## touchmark stress{}\n\n{}{}{}", finished ? "" : " (interrupted)",
+                                  table.markdown(), code_block(legend), code_block(faults)));
+    if (!frame_.folder) return;
+    frame_.folder->write_file("stress.csv", stress::stress_csv(frame_.description.run_id, run_.scores()));
+    frame_.folder->write_file("run.json", stress::stress_json(frame_.description, run_));
+  }
 
   stress::StressRun run_;
   RunFrame frame_;
   ReportFile junit_, markdown_;
 };
 
-void StressCommand::report() {
-  const bool finished = frame_.description.finished;
-  const std::string faults = results::list_of_failures(run_.faults(), faults_shown);
-  const support::Table table = stress::stress_table(run_.scores());
-  const std::string legend = stress::stress_legend(run_.scores());
-  support::StandardOutput().write(table.text() + legend + (faults.empty() ? "" : "\n" + faults));
-  if (finished && junit_.wanted())
-    junit_.write(results::junit_xml("touchmark stress", stress::cases_of(run_.scores())));
-  if (markdown_.wanted())
-    markdown_.write(fmt::format("## touchmark stress{}\n\n{}{}{}", finished ? "" : " (interrupted)",
-                                table.markdown(), code_block(legend), code_block(faults)));
-  if (!frame_.folder) return;
-  frame_.folder->write_file("stress.csv", stress::stress_csv(frame_.description.run_id, run_.scores()));
-  frame_.folder->write_file("run.json", stress::stress_json(frame_.description, run_));
-}
-
-int StressCommand::run() {
-  const bool finished =
-      frame_.finishes([this] { run_.run([this](const std::string& what) { frame_.progress.show(what); }); });
-  report();
-  if (!finished) return interrupted(run_.scores().size());
-  const std::vector<results::Summary> summaries(run_.scores().begin(), run_.scores().end());
-  return results::status_of(summaries, std::any_of(summaries.begin(), summaries.end(),
-                                                   [](const results::Summary& one) { return one.broken; }));
-}
-
 /// "QUERY/MESH/COURSE/STEP": one answer of the only family, by the only contestant.
 void repeat_one(const StressOptions& options, const contestants::Roster& roster) {
   support::restore_denormals();
   const stress::StressRequest request = request_of(options, roster);
-  if (options.families.size() != 1 || options.selectors.detectors.size() != 1) {
+  if (options.families.size() != 1 || options.selectors.detectors.size() != 1)
     throw std::invalid_argument("--repeat needs exactly one --family and one --detector");
-  }
   std::istringstream text(options.repeat);
   std::vector<std::string> parts;
   for (std::string part; std::getline(text, part, '/');) parts.push_back(part);
   const std::optional<workload::Query> query =
       parts.size() == 4 ? workload::query_named(parts[0]) : std::nullopt;
   std::vector<std::uint64_t> indices;
-  for (std::size_t i = 1; query && i < parts.size(); ++i) {
+  for (std::size_t i = 1; query && i < parts.size(); ++i)
     if (const auto index = support::parse_count(parts[i])) indices.push_back(*index);
-  }
-  if (indices.size() != 3) {
+  if (indices.size() != 3)
     throw support::bad_value("--repeat", options.repeat, "QUERY/MESH/COURSE/STEP, as nearest/0/0/17");
-  }
   const std::vector<workload::Workload> workloads =
       request.families.front()->make(request.seed, request.probes);
-  if (indices[0] >= workloads.size() || indices[1] >= workloads[indices[0]].traces.size()) {
+  if (indices[0] >= workloads.size() || indices[1] >= workloads[indices[0]].traces.size())
     throw std::invalid_argument(
         fmt::format("--repeat \"{}\" names a mesh or course that is not", options.repeat));
-  }
   const workers::Task task{indices[1], *query, workloads[indices[0]].traces[indices[1]].size()};
   support::StandardOutput().write(rows_of_step(roster, workloads[indices[0]], request.workers,
                                                request.contestants.front(), task, indices[2],

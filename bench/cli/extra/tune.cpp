@@ -79,14 +79,13 @@ double percent_of(double error, double diagonal) { return diagonal > 0 ? 100 * e
 std::string table_of(const papers::FrontierResult& result, double diagonal, double rate) {
   support::Table table({"surface", "form", "clustering", "triangles", "spheres", "error %", "99 % within us",
                         "Hz", "in time", "best"});
-  for (const papers::FrontierPoint& p : result.points) {
+  for (const papers::FrontierPoint& p : result.points)
     table.add({fmt::format("{} {}", p.method, p.level), p.form, fmt::format("{:.4g}", p.clustering),
                std::to_string(p.triangles), std::to_string(p.spheres),
                fmt::format("{:.4f}", percent_of(p.error.mean, diagonal)),
                p.ns_p99 ? fmt::format("{:.3g}", *p.ns_p99 * 1e-3) : "",
                p.ns_p99 ? fmt::format("{:.4g}", 1e9 / *p.ns_p99) : "",
                papers::holds_rate(p, rate) ? "yes" : "no", p.best ? "*" : ""});
-  }
   return table.text();
 }
 
@@ -97,12 +96,11 @@ std::string description(const char* which, const std::optional<papers::FrontierP
       "{}: {} level {}, {}, mean error {:.4f} % of the box diagonal, 99 of 100 queries within {:.4g} us\n",
       which, point->method, point->level, papers::detector_of(*point),
       percent_of(point->error.mean, diagonal), *point->ns_p99 * 1e-3);
-  if (point->level > 0) {
+  if (point->level > 0)
     text += fmt::format(
         "  touchmark mesh subdivide --mesh {} --method {} --levels {} --threshold {} --form meshlab --output "
         "fine.ply\n",
         options.mesh, point->method, point->level, options.threshold);
-  }
   text += fmt::format("  touchmark bench --mesh {} --detector {}\n",
                       point->level > 0 ? "fine.ply" : options.mesh, papers::detector_of(*point));
   return text;

@@ -39,10 +39,9 @@ struct UpdateOptions {
 
 double checked_share(std::string_view text) {
   const double value = support::parse_share(text);
-  if (!(value > 0 && value <= 1)) {
+  if (!(value > 0 && value <= 1))
     throw std::invalid_argument(
         fmt::format("--shares: \"{}\" is not a share of the vertices above 0 and at most 100%", text));
-  }
   return value;
 }
 

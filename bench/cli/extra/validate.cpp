@@ -14,13 +14,13 @@
 
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/options.h"
-#include "bench/experiments/audit/audit_check.h"
-#include "bench/experiments/choose/choose_check.h"
-#include "bench/experiments/many/many_check.h"
+#include "bench/experiments/audit/audit_row.h"
+#include "bench/experiments/choose/choose_csv.h"
+#include "bench/experiments/many/many_row.h"
 #include "bench/experiments/proxy/proxy_check.h"
-#include "bench/experiments/scaling/body_check.h"
+#include "bench/experiments/scaling/body_row.h"
 #include "bench/experiments/servo/servo_check.h"
-#include "bench/experiments/stress/stress_check.h"
+#include "bench/experiments/stress/stress_csv.h"
 #include "bench/experiments/suite/suite_check.h"
 #include "bench/results/validation/located_json.h"
 #include "bench/results/validation/results_check.h"
@@ -56,16 +56,15 @@ std::vector<std::string> files_below(const std::string& folder) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
       const fs::path& path = entry.path();
       if (entry.is_regular_file() && (path.extension() == ".csv" || path.filename() == "run.json" ||
-                                      path.filename() == "steps.bin" || is_visits(path))) {
+                                      path.filename() == "steps.bin" || is_visits(path)))
         files.push_back(path.string());
-      }
     }
   } catch (const fs::filesystem_error& error) {
     throw std::invalid_argument(fmt::format("{}: {}", folder, error.code().message()));
   }
   if (files.empty())
     throw std::invalid_argument(fmt::format("{}: no CSV file and no run.json in it", folder));
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 

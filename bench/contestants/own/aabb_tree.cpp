@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "bench/contestants/budgeted.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/own_options.h"
 #include "bench/contestants/own_scene.h"
 #include "core/aabb_tree/float_tree.h"
@@ -13,11 +14,8 @@ namespace touchmark::bench::contestants {
 ContestantInfo aabb_tree_entry() {
   static const Names<bool> precisions{{"double", false}, {"float", true}};
   const auto in_floats = [](const OptionValues& values) { return chosen(values, "precision", precisions); };
-  ContestantInfo info;
-  info.name = "aabb-tree";
-  info.rank = 20;
-  info.summary = "a plain binary tree of boxes: the reference";
-  info.accuracy = "exact; precision=float: approximate; budget!=0: conservative";
+  ContestantInfo info = introduced("aabb-tree", 20, "a plain binary tree of boxes: the reference",
+                                   "exact; precision=float: approximate; budget!=0: conservative");
   info.queries = queries_of<AabbTree>();
   info.options = options_with<AabbTree::Options>(
       {{"leaf_size", choice("precision", precisions,

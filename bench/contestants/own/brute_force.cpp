@@ -1,16 +1,14 @@
 #include "core/brute_force/brute_force.h"
 
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/own_options.h"
 #include "bench/contestants/own_scene.h"
 
 namespace touchmark::bench::contestants {
 
 ContestantInfo brute_force_entry() {
-  ContestantInfo info;
-  info.name = "brute-force";
-  info.rank = 10;
-  info.summary = "every triangle, every time: both papers' \"without grouping\"";
-  info.accuracy = "exact";
+  ContestantInfo info =
+      introduced("brute-force", 10, "every triangle, every time: both papers' \"without grouping\"", "exact");
   info.queries = queries_of<BruteForce>();
   info.options = options_with<BruteForce::Options>({});
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {

@@ -1,3 +1,4 @@
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/own_options.h"
 #include "core/field/certified_field.h"
 #include "core/sphere_cluster/sphere_cluster.h"
@@ -24,11 +25,9 @@ std::vector<named::Option> options_of(Field::Options& options) {
 ContestantInfo field_entry() {
   Field::Options defaults;
   const std::vector<named::Option> table = options_of(defaults);
-  ContestantInfo info;
-  info.name = "field";
-  info.rank = 45;
-  info.summary = "a sampled distance field whose error is proved, over sphere-cluster";
-  info.accuracy = "approximate; answers=exact: exact";
+  ContestantInfo info =
+      introduced("field", 45, "a sampled distance field whose error is proved, over sphere-cluster",
+                 "approximate; answers=exact: exact");
   info.queries = queries_of<Field>();
   info.options.assign(table.begin(), table.end());
   info.options.push_back(side_option());

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "bench/contestants/budgeted.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/own_options.h"
 #include "bench/contestants/own_scene.h"
 #include "core/grid_group/published/published_grid_group.h"
@@ -37,11 +38,9 @@ std::unique_ptr<Contestant> build(const TriangleMesh& mesh, const typename D::Op
 }  // namespace
 
 ContestantInfo grid_group_entry() {
-  ContestantInfo info;
-  info.name = "grid-group";
-  info.rank = 30;
-  info.summary = "triangles grouped by uniform cells, after Park & Jang 2018";
-  info.accuracy = "exact; budget!=0: conservative";
+  ContestantInfo info =
+      introduced("grid-group", 30, "triangles grouped by uniform cells, after Park & Jang 2018",
+                 "exact; budget!=0: conservative");
   info.queries = queries_of<GridGroup>();
   info.options = options_with<GridGroupForm>(
       {{"build",

@@ -1,6 +1,7 @@
 #include "core/sphere_cluster/sphere_cluster.h"
 
 #include "bench/contestants/budgeted.h"
+#include "bench/contestants/introduced.h"
 #include "bench/contestants/own_options.h"
 #include "bench/contestants/own_scene.h"
 #include "core/sphere_cluster/published/published_sphere_cluster.h"
@@ -18,12 +19,10 @@ bool is_published(const OptionValues& values) {
 }  // namespace
 
 ContestantInfo sphere_cluster_entry() {
-  ContestantInfo info;
-  info.name = "sphere-cluster";
+  ContestantInfo info =
+      introduced("sphere-cluster", 40, "triangles in clustered bounding spheres, after Choi & Sung 2017",
+                 "exact; precise=false: conservative; budget!=0: conservative");
   info.former_names = {{"auto", {"query", "reach", "speed", "bytes_per_triangle", "trial", "chose"}}};
-  info.rank = 40;
-  info.summary = "triangles in clustered bounding spheres, after Choi & Sung 2017";
-  info.accuracy = "exact; precise=false: conservative; budget!=0: conservative";
   info.queries = queries_of<SphereCluster>();
   info.options = options_with<SphereClusterForm>(
       {{"build",

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,13 +16,179 @@
 
 #include "bench/contestants/contestant_of.h"
 #include "bench/contestants/entry.h"
-#include "bench/contestants/plugins/plugin_detector.h"
 #include "bench/contestants/roster.h"
 #include "bench/support/system/denormals.h"
+#include "bench/workload/answer.h"
 #include "core/contestant.h"
+#include "core/detector.h"
+#include "core/mesh_update.h"
 
 namespace touchmark::bench::contestants {
 namespace {
+
+/// Room for a text of the plug-in's, as one line whatever it wrote.
+class ErrorText {
+ public:
+  char* data() noexcept { return text_.data(); }
+  std::size_t size() const noexcept { return text_.size(); }
+  std::string or_else(const char* otherwise) const {
+    std::string text(text_.begin(), std::ranges::find(text_, '\0'));
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char letter) { return letter < ' '; }, ' ');
+    return text.empty() ? otherwise : text;
+  }
+
+ private:
+  std::array<char, 1024> text_{};
+};
+
+touchmark_plugin_mesh c_mesh(const TriangleMesh& mesh) noexcept {
+  return {mesh.vertices().front().data(), mesh.vertices().size(), mesh.triangles().front().data(),
+          mesh.size()};
+}
+
+Accuracy accuracy_of(const touchmark_plugin& plugin, const void* detector, Guarantee claimed) {
+  touchmark_plugin_accuracy said{};
+  if (plugin.accuracy != nullptr) plugin.accuracy(detector, &said);
+  if (!(said.relative >= 0) || !(said.absolute >= 0))
+    throw std::invalid_argument("the accuracy that it tells is below 0, or no number");
+  Accuracy accuracy{claimed, said.relative, said.absolute, said.decides_exactly != 0,
+                    said.names_exactly != 0};
+  if (said.relative > 0 || said.absolute > 0) return accuracy;
+  if (claimed == Guarantee::exact) {
+    accuracy.relative = kernel_relative_error;
+  } else {
+    accuracy.absolute = std::numeric_limits<double>::infinity();
+  }
+  return accuracy;
+}
+
+/// A plug-in's functions as a detector. What they cost beside the plug-in's own time is the call through a
+/// pointer, and the probe and the answer once more in memory.
+class PluginDetector {
+ public:
+  struct Options {
+    const touchmark_plugin* plugin = nullptr;
+    Guarantee claimed = Guarantee::exact;
+    std::vector<touchmark_plugin_setting> settings;  ///< their texts live as long as the call of build
+  };
+
+  /// Holds the plug-in's own session, which is gone with it.
+  class Session {
+   public:
+    Session() = default;
+    Session(const touchmark_plugin& plugin, std::shared_ptr<void> detector) : begun_(true) {
+      if (plugin.create_session == nullptr) return;
+      void* const made = plugin.create_session(detector.get());
+      if (made == nullptr) throw std::runtime_error("create_session returns NULL");
+      session_ = {made,
+                  [&plugin, detector](void* session) { plugin.destroy_session(detector.get(), session); }};
+    }
+
+    void* get() const noexcept { return session_.get(); }
+    bool is_begun() const noexcept { return begun_; }
+    Work work;  ///< stays at zero
+
+   private:
+    std::shared_ptr<void> session_;
+    bool begun_ = false;  ///< false for one that no detector has made yet: the first query makes it
+  };
+
+  /// Throws std::invalid_argument with the text of the plug-in's build.
+  static PluginDetector build(const TriangleMesh& mesh, const Options& options) {
+    const touchmark_plugin_mesh given = c_mesh(mesh);
+    ErrorText error;
+    void* const made = options.plugin->build(&given, options.settings.data(), options.settings.size(),
+                                             error.data(), error.size());
+    if (made == nullptr)
+      throw std::invalid_argument(error.or_else("build returns NULL and does not say why"));
+    return {*options.plugin, mesh, std::shared_ptr<void>(made, options.plugin->destroy), options.claimed};
+  }
+
+  Session session() const { return {*plugin_, detector_}; }
+  bool answers(workload::Query query) const noexcept {
+    switch (query) {
+      case workload::Query::touches:
+        return plugin_->touches != nullptr;
+      case workload::Query::nearest:
+        return plugin_->nearest != nullptr;
+      case workload::Query::sweep:
+        return plugin_->first_hit != nullptr;
+      case workload::Query::moving:
+        return false;
+    }
+    return false;
+  }
+
+  bool updates() const noexcept { return plugin_->update != nullptr; }
+
+  bool touches(const Probe& probe, Session& session) const noexcept {
+    return plugin_->touches(detector_.get(), begun(session), &c_probe(probe)) != 0;
+  }
+  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
+    touchmark_plugin_contact contact{};
+    if (plugin_->nearest(detector_.get(), begun(session), &c_probe(probe), reach, &contact) == 0)
+      return std::nullopt;
+    return contact_of(contact);
+  }
+  std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
+    const touchmark_plugin_sweep asked{{sweep.from.x(), sweep.from.y(), sweep.from.z()},
+                                       {sweep.to.x(), sweep.to.y(), sweep.to.z()},
+                                       sweep.radius};
+    touchmark_plugin_impact impact{};
+    if (plugin_->first_hit(detector_.get(), begun(session), &asked, &impact) == 0) return std::nullopt;
+    return Impact{impact.fraction, contact_of(impact.contact)};
+  }
+
+  std::size_t bytes() const noexcept { return plugin_->bytes(detector_.get()); }
+  Accuracy accuracy() const noexcept { return accuracy_; }
+  /// Throws std::invalid_argument with the text of the plug-in's update, and for a mesh of other triangles.
+  void update(const TriangleMesh& mesh) {
+    connectivity_.expect(mesh);
+    const touchmark_plugin_mesh given = c_mesh(mesh);
+    ErrorText error;
+    if (plugin_->update(detector_.get(), &given, error.data(), error.size()) != 0)
+      throw std::invalid_argument(error.or_else("update fails and does not say why"));
+  }
+
+ private:
+  PluginDetector(const touchmark_plugin& plugin, const TriangleMesh& mesh, std::shared_ptr<void> detector,
+                 Guarantee claimed)
+      : plugin_(&plugin),
+        detector_(std::move(detector)),
+        ids_(mesh.ids().begin(), mesh.ids().end()),
+        accuracy_(accuracy_of(plugin, detector_.get(), claimed)),
+        connectivity_(mesh) {}
+
+  void* begun(Session& session) const noexcept {
+    if (!session.is_begun()) session = this->session();
+    return session.get();
+  }
+  /// Returns the probe where it lies, which has the layout of C: a copy made of single stores would keep a
+  /// vector load waiting.
+  static const touchmark_plugin_probe& c_probe(const Probe& probe) noexcept {
+    static_assert(sizeof(Probe) == sizeof(touchmark_plugin_probe) &&
+                  offsetof(Probe, radius) == offsetof(touchmark_plugin_probe, radius));
+    return reinterpret_cast<const touchmark_plugin_probe&>(probe);
+  }
+  Contact contact_of(const touchmark_plugin_contact& contact) const noexcept {
+    return {{contact.point[0], contact.point[1], contact.point[2]},
+            {contact.normal[0], contact.normal[1], contact.normal[2]},
+            contact.distance,
+            id_of(contact.triangle),
+            Side::unasked};
+  }
+  /// The index itself for one that is out of range, which the judge then finds to be no triangle's.
+  TriangleId id_of(std::uint32_t triangle) const noexcept {
+    return triangle < ids_.size() ? ids_[triangle] : triangle;
+  }
+
+  const touchmark_plugin* plugin_;
+  std::shared_ptr<void> detector_;
+  std::vector<TriangleId> ids_;  ///< by the mesh's order; empty where they are the same
+  Accuracy accuracy_;
+  Connectivity connectivity_;
+};
 
 constexpr const char* entry_symbol = "touchmark_plugin_entry";
 constexpr std::uint32_t max_options = 100;
@@ -45,10 +214,9 @@ const touchmark_plugin& described_by(const std::string& path) {
   const auto entry = reinterpret_cast<touchmark_plugin_entry_function>(symbol);
   const touchmark_plugin* const plugin = entry();
   if (plugin == nullptr) refuse(fmt::format("{} returns NULL", entry_symbol));
-  if (plugin->version < 1 || plugin->version > TOUCHMARK_PLUGIN_VERSION) {
+  if (plugin->version < 1 || plugin->version > TOUCHMARK_PLUGIN_VERSION)
     refuse(fmt::format("it is of version {} of touchmark/contestant.h; this program knows version {}",
                        plugin->version, TOUCHMARK_PLUGIN_VERSION));
-  }
   return *plugin;
 }
 

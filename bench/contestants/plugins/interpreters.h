@@ -1,4 +1,4 @@
-/// What runs a plug-in that is a script. CMake puts the other ends of script_process.h, python_plugin.py and
+/// What runs a plug-in that is a script. CMake puts the other ends of script_plugin.cpp, python_plugin.py and
 /// javascript_plugin.js, into the program.
 #pragma once
 

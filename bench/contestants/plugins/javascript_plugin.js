@@ -1,4 +1,4 @@
-// Runs the user's module for a worker: the other end of bench/contestants/plugins/script_process.h. It holds nothing
+// Runs the user's module for a worker: the other end of bench/contestants/plugins/script_plugin.cpp. It holds nothing
 // newer than ES2018, so that a node that is too old can say so.
 "use strict";
 const fs = require("fs");

@@ -1,4 +1,4 @@
-"""Runs the user's script for a worker: the other end of bench/contestants/plugins/script_process.h."""
+"""Runs the user's script for a worker: the other end of bench/contestants/plugins/script_plugin.cpp."""
 import importlib.util
 import os
 import socket

@@ -2,25 +2,167 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <tuple>
+#include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "bench/contestants/broken.h"
 #include "bench/contestants/build_notes.h"
 #include "bench/contestants/plugins/c_plugin.h"
-#include "bench/contestants/plugins/script_process.h"
+#include "bench/contestants/plugins/interpreters.h"
 #include "core/contestant.h"
 
 namespace touchmark::bench::contestants {
 namespace {
+
+// An interpreter beside a worker, which runs the user's script: the one that is first in PATH, so the Python
+// of a virtual environment where one is active. A message is 72 bytes there and 72 bytes back, the machine's
+// own numbers; python_plugin.py and javascript_plugin.js are the other ends.
+
+/// What an interpreter is asked, and what it answers.
+struct ScriptMessage {
+  enum Ask : std::uint8_t { describe, build, destroy, touches, nearest, first_hit, nothing, reproduce };
+  enum Said : std::uint8_t { no, yes, failed };
+
+  std::uint8_t code = 0;  ///< Ask, or Said
+  std::array<std::uint8_t, 3> unused{};
+  std::uint32_t number = 0;  ///< a detector's, a triangle's, the query's to reproduce, or a text's length
+  std::array<double, 8> values{};  ///< points, a normal, sizes: the other ends say which
+};
+static_assert(sizeof(ScriptMessage) == 72);
+
+/// The exit status of a child that could not become the interpreter, as shells have it.
+constexpr int not_found = 127;
+
+/// In the child: only async-signal-safe calls.
+[[noreturn]] void become_interpreter(char* const* argv, int channel, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(not_found);
+  // Whatever the worker has open is the worker's: its end must be seen by the program at once.
+  constexpr int last_looked_at = 256;
+  for (int descriptor = STDERR_FILENO + 1; descriptor < last_looked_at; ++descriptor)
+    fcntl(descriptor, F_SETFD, descriptor == channel ? 0 : FD_CLOEXEC);
+  execvp(argv[0], argv);
+  _exit(not_found);
+}
+
+/// Ends with the object, and with its parent.
+class ScriptProcess {
+ public:
+  /// Throws std::system_error.
+  ScriptProcess(const Interpreter& interpreter, const std::string& script) : interpreter_(interpreter) {
+    std::array<int, 2> ends{};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+      throw std::system_error(errno, std::generic_category(),
+                              std::string("cannot talk to ") + interpreter.name);
+    std::array<std::string, 5> words{interpreter.command, interpreter.option, interpreter.program, script,
+                                     std::to_string(ends[1])};
+    std::array<char*, 6> argv{};
+    std::ranges::transform(words, argv.begin(), [](std::string& word) { return word.data(); });
+    const pid_t parent = getpid();
+    process_ = fork();
+    if (process_ == 0) become_interpreter(argv.data(), ends[1], parent);
+    const int error = errno;
+    close(ends[1]);
+    channel_ = ends[0];
+    if (process_ > 0) return;
+    close(channel_);
+    throw std::system_error(error, std::generic_category(), std::string("cannot start ") + interpreter.name);
+  }
+
+  ScriptProcess(const ScriptProcess&) = delete;
+  ScriptProcess& operator=(const ScriptProcess&) = delete;
+  ~ScriptProcess() {
+    if (process_ > 0) kill(process_, SIGKILL);
+    how_it_ended();
+    close(channel_);
+  }
+
+  /// Sends the message and what belongs to it, and returns the answer; the text that follows one is put into
+  /// `text`. An answer of an interpreter that has ended is `failed`, and the text says how it ended.
+  ScriptMessage ask(const ScriptMessage& question, std::span<const std::span<const std::byte>> data,
+                    std::string& text) noexcept {
+    ScriptMessage answer;
+    bool whole = send(&question, sizeof question);
+    for (const std::span<const std::byte> one : data) whole = whole && send(one.data(), one.size());
+    whole = whole && receive(&answer, sizeof answer);
+    const bool has_text = answer.code == ScriptMessage::failed || question.code == ScriptMessage::describe ||
+                          question.code == ScriptMessage::reproduce;
+    if (whole && has_text) {
+      text.resize(answer.number);
+      whole = receive(text.data(), text.size());
+    }
+    if (whole) return answer;
+    text = how_it_ended();
+    answer.code = ScriptMessage::failed;
+    return answer;
+  }
+
+  ScriptMessage ask(const ScriptMessage& question, std::string& text) noexcept {
+    return ask(question, {}, text);
+  }
+
+ private:
+  bool send(const void* data, std::size_t size) const noexcept {
+    const auto* from = static_cast<const std::byte*>(data);
+    while (size > 0) {
+      const ssize_t sent = ::send(channel_, from, size, MSG_NOSIGNAL);
+      if (sent < 0 && errno == EINTR) continue;
+      if (sent <= 0) return false;
+      from += sent;
+      size -= static_cast<std::size_t>(sent);
+    }
+    return true;
+  }
+
+  bool receive(void* data, std::size_t size) const noexcept {
+    auto* to = static_cast<std::byte*>(data);
+    while (size > 0) {
+      const ssize_t got = recv(channel_, to, size, MSG_WAITALL);
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) return false;
+      to += got;
+      size -= static_cast<std::size_t>(got);
+    }
+    return true;
+  }
+
+  std::string how_it_ended() noexcept {
+    int status = 0;
+    const pid_t process = std::exchange(process_, -1);
+    if (process <= 0 || waitpid(process, &status, 0) != process)
+      return fmt::format("{} has ended", interpreter_.name);
+    if (WIFSIGNALED(status))
+      return fmt::format("{} was ended by SIG{}", interpreter_.name, sigabbrev_np(WTERMSIG(status)));
+    if (WEXITSTATUS(status) == not_found)
+      return fmt::format("there is no {} in PATH, which runs a plug-in in {}: {}", interpreter_.command,
+                         interpreter_.language, interpreter_.way_out);
+    return fmt::format("{} has ended with status {}", interpreter_.name, WEXITSTATUS(status));
+  }
+
+  const Interpreter& interpreter_;
+  pid_t process_ = -1;
+  int channel_ = -1;
+};
 
 /// What the functions of a touchmark_plugin, which are given no more than a detector, need of the script. One
 /// question at a time: an interpreter answers no faster when two wait.

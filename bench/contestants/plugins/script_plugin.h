@@ -1,4 +1,4 @@
-/// A contestant that is a script, asked over the pipe of script_process.h. docs/plugins.md says what it
+/// A contestant that is a script, asked over the pipe of script_plugin.cpp. docs/plugins.md says what it
 /// holds.
 #pragma once
 

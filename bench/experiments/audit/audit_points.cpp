@@ -85,11 +85,9 @@ class Finder {
 std::vector<AuditPoint> in_turns(const std::array<std::vector<AuditPoint>, places>& found) {
   std::vector<AuditPoint> points;
   const std::size_t most = std::ranges::max_element(found, {}, &std::vector<AuditPoint>::size)->size();
-  for (std::size_t i = 0; i < most; ++i) {
-    for (const std::vector<AuditPoint>& of_place : found) {
+  for (std::size_t i = 0; i < most; ++i)
+    for (const std::vector<AuditPoint>& of_place : found)
       if (i < of_place.size()) points.push_back(of_place[i]);
-    }
-  }
   return points;
 }
 

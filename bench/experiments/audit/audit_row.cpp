@@ -2,9 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "bench/results/validation/row_check.h"
 #include "bench/support/names.h"
 #include "bench/support/numbers.h"
 #include "bench/support/table.h"
@@ -113,6 +116,8 @@ std::string largest(Row row) {
   return row.body.mm_a_unit ? error_mm(row) + " mm" : fmt::format("{:.4g}", row.error->distance);
 }
 
+namespace validation = results::validation;
+
 }  // namespace
 
 std::string_view name_of(Shape shape) noexcept { return support::name_in(shape_names, shape); }
@@ -148,6 +153,21 @@ std::string audit_findings(const std::vector<AuditRow>& rows) {
                            row.error->at.y(), row.error->at.z());
   }
   return lines.empty() ? "" : lines + "\n";
+}
+
+void check_audit(const validation::CsvTable& table, validation::Faults& faults) {
+  validation::check_rows(
+      table, audit_columns(), audit_columns().size(), faults, [](const validation::RowCheck& row) {
+        row.check_fields(audit_columns(), false);
+        std::uint64_t asked = 0;
+        for (const char* column : {"inside", "cavities", "near", "beyond"}) asked += row.count(column);
+        row.expect(asked == row.count("points"), "points", fmt::format("is not the {} of all places", asked));
+        for (const auto& [part, of] :
+             {std::pair{"made_up", "contacts"}, std::pair{"missed", "true_contacts"}})
+          row.expect(row.count(part) <= row.count(of), part, fmt::format("is above {}", of));
+        row.expect(!row.is_ok() || row.count("made_up") + row.count("missed") == 0, "status",
+                   "is ok with contacts made up or missed");
+      });
 }
 
 }  // namespace touchmark::bench::experiments::audit

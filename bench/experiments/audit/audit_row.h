@@ -11,6 +11,8 @@
 
 #include "bench/experiments/audit/audit_points.h"
 #include "bench/results/column.h"
+#include "bench/results/validation/fault.h"
+#include "bench/results/validation/results_check.h"
 
 namespace touchmark::bench::experiments::audit {
 
@@ -79,5 +81,8 @@ std::string audit_csv(const std::vector<AuditRow>& rows);
 std::string audit_table(const std::vector<AuditRow>& rows);
 /// A line for each row that differs.
 std::string audit_findings(const std::vector<AuditRow>& rows);
+
+/// Checks that a file is an audit.csv of schema 1, and agrees with itself.
+void check_audit(const results::validation::CsvTable& table, results::validation::Faults& faults);
 
 }  // namespace touchmark::bench::experiments::audit

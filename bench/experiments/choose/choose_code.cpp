@@ -134,7 +134,7 @@ std::string scene_code_for(const contestants::ContestantInfo& info, const contes
   const ProxyParts proxy = use.proxy ? proxy_parts(workload, "Scene", "scene_") : ProxyParts{};
   std::vector<std::string> headers{library.header, "pose", "probe", "scene", "triangle_mesh"};
   if (use.proxy) headers.push_back(proxy.header);
-  std::sort(headers.begin(), headers.end());
+  std::ranges::sort(headers);
   std::string text = fmt::format(
       "// {}, as touchmark choose recommends it for these bodies. Lengths are in the scene's units.\n",
       spec.text());
@@ -180,7 +180,7 @@ std::string code_for(const contestants::Roster& roster, const contestants::Conte
   std::vector<std::string> headers{library.header, "probe", "triangle_mesh"};
   if (use.proxy) headers.push_back(proxy.header);
   if (sides) headers.emplace_back("signed_detector");
-  std::sort(headers.begin(), headers.end());
+  std::ranges::sort(headers);
   std::string text =
       fmt::format("// {}, as touchmark choose recommends it. Lengths are in mesh units.\n", spec.text());
   text += "#include <limits>\n#include <optional>\n\n";

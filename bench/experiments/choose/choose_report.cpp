@@ -83,9 +83,8 @@ std::string candidate_table(const Asked& asked, const std::vector<Candidate>& ca
                         "p99", "max", "slowest on", "build ms", "MB", "why not"});
   const std::vector<std::size_t> ranked = ranking(candidates, asked.limits);
   for (const std::size_t i : ranked) table.add(cells_of(asked, candidates[i]));
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (std::find(ranked.begin(), ranked.end(), i) == ranked.end()) table.add(cells_of(asked, candidates[i]));
-  }
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (std::ranges::find(ranked, i) == ranked.end()) table.add(cells_of(asked, candidates[i]));
   return table.text();
 }
 

@@ -1,11 +1,15 @@
 #include "bench/experiments/many/many_row.h"
 
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "bench/experiments/many/many_workload.h"
+#include "bench/results/validation/row_check.h"
 #include "bench/support/grouping.h"
 #include "bench/support/names.h"
 #include "bench/support/table.h"
@@ -67,6 +71,24 @@ constexpr auto columns = std::to_array<results::Column<R>>({
     {"status", text<&R::status>, always, status, "`wrong` where `differing` is above 0."},
 });
 
+namespace validation = results::validation;
+
+/// Numbers are written with four digits.
+bool nearly(double a, double b) { return std::abs(a - b) <= 2e-3 * std::abs(b); }
+
+void check_numbers(const validation::RowCheck& row) {
+  const double ns = row.number("ns_per_point").value_or(0);
+  const std::uint64_t points = row.count("points"), all = points * row.count("calls");
+  row.expect(nearly(row.number("points_per_second").value_or(0), 1e9 / ns), "points_per_second",
+             "is not 1e9 / ns_per_point");
+  row.expect(nearly(row.number("us_per_call").value_or(0), 1e-3 * ns * static_cast<double>(points)),
+             "us_per_call", "is not ns_per_point times points");
+  row.expect(row.count("answered") <= all, "answered",
+             fmt::format("is above the {} points of all calls", all));
+  row.expect((row.field("status") == "wrong") == (row.count("differing") > 0), "status",
+             "does not go with differing");
+}
+
 }  // namespace
 
 std::string_view name_of(AskOrder order) noexcept { return support::name_in(orders, order); }
@@ -93,6 +115,14 @@ std::string many_table(const std::vector<ManyRow>& rows) {
                         first.points, first.reach, table.text());
   }
   return text;
+}
+
+void check_many(const validation::CsvTable& table, validation::Faults& faults) {
+  validation::check_rows(table, many_columns(), many_columns().size(), faults,
+                         [](const validation::RowCheck& row) {
+                           row.check_fields(many_columns(), false);
+                           check_numbers(row);
+                         });
 }
 
 }  // namespace touchmark::bench::experiments::many

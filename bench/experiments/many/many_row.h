@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "bench/results/column.h"
+#include "bench/results/validation/fault.h"
+#include "bench/results/validation/results_check.h"
 #include "core/search/many/many_options.h"
 
 namespace touchmark::bench::experiments::many {
@@ -45,5 +47,8 @@ std::span<const results::Column<ManyRow>> many_columns();
 
 std::string many_csv(const std::vector<ManyRow>& rows);
 std::string many_table(const std::vector<ManyRow>& rows);
+
+/// Checks that a file is a many.csv of schema 1, and agrees with itself.
+void check_many(const results::validation::CsvTable& table, results::validation::Faults& faults);
 
 }  // namespace touchmark::bench::experiments::many

@@ -72,7 +72,7 @@ std::string claims_markdown(const std::vector<Claim>& claims) {
   for (const Claim& c : claims) {
     std::string mark;
     if (!c.why.empty()) {
-      auto found = std::find(reasons.begin(), reasons.end(), c.why);
+      auto found = std::ranges::find(reasons, c.why);
       if (found == reasons.end()) found = reasons.insert(reasons.end(), c.why);
       mark = fmt::format("({})", found - reasons.begin() + 1);
     }
@@ -85,8 +85,7 @@ std::string claims_markdown(const std::vector<Claim>& claims) {
 
 std::string summary(const std::vector<Claim>& claims) {
   const auto count = [&claims](Agreement agreement) {
-    return std::count_if(claims.begin(), claims.end(),
-                         [&](const Claim& claim) { return claim.agreement == agreement; });
+    return std::ranges::count_if(claims, [&](const Claim& claim) { return claim.agreement == agreement; });
   };
   const auto not_comparable = count(Agreement::not_comparable);
   return fmt::format(

@@ -38,10 +38,9 @@ class Exploration {
     try {
       make_reference();
       if (settings_.first_level == 0) add_surface("original", 0, original_);
-      for (const SubdivisionMethod method : settings_.methods) {
+      for (const SubdivisionMethod method : settings_.methods)
         for (int level = std::max(settings_.first_level, 1); level <= settings_.levels; ++level)
           add_level(method, level);
-      }
       timing_.run(settings_.effort, [this](std::size_t round, std::size_t) {
         print_progress_(fmt::format("frontier: timing, round {} of {}", round + 1, settings_.effort.rounds));
       });
@@ -146,7 +145,7 @@ void mark_best(std::vector<FrontierPoint>& points, const std::function<bool(cons
     point.best = false;
     if (point.ns && among(point)) compared.push_back(&point);
   }
-  std::sort(compared.begin(), compared.end(), [](const FrontierPoint* a, const FrontierPoint* b) {
+  std::ranges::sort(compared, [](const FrontierPoint* a, const FrontierPoint* b) {
     return a->ns != b->ns ? a->ns < b->ns : a->error.mean < b->error.mean;
   });
   double least = std::numeric_limits<double>::infinity();
@@ -168,13 +167,12 @@ support::Table frontier_table(const FrontierResult& result, double diagonal) {
                         "rms_error", "max_error", "mean_error_percent", "detection_ms", "update_rate_hz",
                         "on_frontier", "tests_per_query"});
   const auto number = [](double value) { return fmt::format("{:.6g}", value); };
-  for (const FrontierPoint& p : result.points) {
+  for (const FrontierPoint& p : result.points)
     table.add({p.method, std::to_string(p.level), p.form, number(p.clustering), std::to_string(p.triangles),
                std::to_string(p.spheres), number(p.error.mean), number(p.error.rms), number(p.error.max),
                number(diagonal > 0 ? 100 * p.error.mean / diagonal : 0), p.ns ? number(*p.ns * 1e-6) : "",
                p.ns ? number(1e9 / *p.ns) : "", p.best ? "yes" : "no",
                fmt::format("{:.1f}", p.tests_per_query)});
-  }
   return table;
 }
 

@@ -65,9 +65,8 @@ std::vector<fs::path> model_folders() {
 
 std::optional<fs::path> model(const char* file) {
   std::error_code ignored;
-  for (const fs::path& folder : model_folders()) {
+  for (const fs::path& folder : model_folders())
     if (fs::is_regular_file(folder / file, ignored)) return folder / file;
-  }
   return std::nullopt;
 }
 

@@ -117,13 +117,12 @@ std::string rising_error_note(const FrontierResult& result) {
   for (const FrontierPoint& point : result.points) {
     if (point.form != "scan" || point.clustering != 0) continue;
     if (last != nullptr && last->method == point.method && last->level + 1 == point.level &&
-        point.error.mean > 1.01 * last->error.mean) {
+        point.error.mean > 1.01 * last->error.mean)
       return fmt::format(
           "The error rises from level {} to level {} of {}: at a fixed threshold only the long edges split, "
           "but the vertices of short ones move at every level, too, and go on past the surface that "
           "splitting them would lead to. A smaller --threshold moves that level up; fewer levels avoid it.",
           last->level, point.level, point.method);
-    }
     last = &point;
   }
   return "";

@@ -10,6 +10,8 @@
 
 #include "bench/experiments/scaling/power_law.h"
 #include "bench/results/column.h"
+#include "bench/results/validation/fault.h"
+#include "bench/results/validation/results_check.h"
 
 namespace touchmark::bench::experiments::scaling {
 
@@ -67,5 +69,8 @@ struct BodyGrowth {
 /// Fits rows that are ok, where there are two different numbers of bodies.
 std::vector<BodyGrowth> growth_of(const std::vector<BodyRow>& rows);
 std::string bodies_growth_csv(const std::vector<BodyGrowth>& growths);
+
+/// Checks that a file is a bodies.csv of schema 1, and agrees with itself.
+void check_bodies(const results::validation::CsvTable& table, results::validation::Faults& faults);
 
 }  // namespace touchmark::bench::experiments::scaling

@@ -39,6 +39,45 @@ std::optional<double> median_of_any(const std::vector<double>& values) {
   return values.empty() ? std::nullopt : std::optional(median(values));
 }
 
+std::vector<workload::Answer> answers_of(contestants::Contestant& contestant,
+                                         const workload::QueryTrace& trace, bool prepared) {
+  std::vector<workload::Answer> answers(trace.steps.size());
+  std::vector<std::uint64_t> work(ticks_a_frame);
+  contestant.forget();
+  for (std::size_t begin = 0; begin < answers.size(); begin += ticks_a_frame) {
+    contestant.stand_at(trace, begin);
+    if (prepared) contestant.prepare_next();
+    contestant.answer(trace, {begin, begin + ticks_a_frame}, std::span(answers).subspan(begin, ticks_a_frame),
+                      work);
+  }
+  return answers;
+}
+
+bool differ(const workload::Answer& a, const workload::Answer& b) {
+  constexpr double tolerance = 1e-9;
+  return a.found != b.found || !(std::abs(a.distance - b.distance) <= tolerance);
+}
+
+/// Reads a frame's poses, as a program has just worked them out.
+void read_poses(const workload::QueryTrace& trace, std::size_t step) {
+  if (trace.schedule == nullptr) return;
+  double sum = 0;
+  for (const scenes::BodyMove& move : trace.schedule->at(step))
+    sum += static_cast<double>(move.body) + move.rotation[0] + move.rotation[8] + move.translation[2];
+  [[maybe_unused]] const volatile double read = sum;
+}
+
+/// Reads what the ticks of a frame are told, as a program has just read its device.
+void read_ahead(const workload::QueryTrace& trace, workload::StepRange range) {
+  double sum = 0;
+  for (const workload::Step& step : trace.steps.subspan(range.begin, range.size()))
+    sum += step.probe.center.sum() + step.probe.radius + step.reach;
+  if (trace.schedule != nullptr)
+    for (std::size_t i = range.begin; i <= range.end; ++i)
+      sum += static_cast<double>(trace.schedule->first[i]);
+  [[maybe_unused]] const volatile double read = sum;
+}
+
 }  // namespace
 
 BodyRun::BodyRun(const contestants::Roster& roster, std::vector<contestants::ContestantSpec> contestants,
@@ -87,49 +126,6 @@ struct BodyRun::Asked {
   contestants::Contestant& contestant;
   const BodyQuestion& question;
 };
-
-namespace {
-
-std::vector<workload::Answer> answers_of(contestants::Contestant& contestant,
-                                         const workload::QueryTrace& trace, bool prepared) {
-  std::vector<workload::Answer> answers(trace.steps.size());
-  std::vector<std::uint64_t> work(ticks_a_frame);
-  contestant.forget();
-  for (std::size_t begin = 0; begin < answers.size(); begin += ticks_a_frame) {
-    contestant.stand_at(trace, begin);
-    if (prepared) contestant.prepare_next();
-    contestant.answer(trace, {begin, begin + ticks_a_frame}, std::span(answers).subspan(begin, ticks_a_frame),
-                      work);
-  }
-  return answers;
-}
-
-bool differ(const workload::Answer& a, const workload::Answer& b) {
-  constexpr double tolerance = 1e-9;
-  return a.found != b.found || !(std::abs(a.distance - b.distance) <= tolerance);
-}
-
-/// Reads a frame's poses, as a program has just worked them out.
-void read_poses(const workload::QueryTrace& trace, std::size_t step) {
-  if (trace.schedule == nullptr) return;
-  double sum = 0;
-  for (const scenes::BodyMove& move : trace.schedule->at(step))
-    sum += static_cast<double>(move.body) + move.rotation[0] + move.rotation[8] + move.translation[2];
-  [[maybe_unused]] const volatile double read = sum;
-}
-
-/// Reads what the ticks of a frame are told, as a program has just read its device.
-void read_ahead(const workload::QueryTrace& trace, workload::StepRange range) {
-  double sum = 0;
-  for (const workload::Step& step : trace.steps.subspan(range.begin, range.size()))
-    sum += step.probe.center.sum() + step.probe.radius + step.reach;
-  if (trace.schedule != nullptr)
-    for (std::size_t i = range.begin; i <= range.end; ++i)
-      sum += static_cast<double>(trace.schedule->first[i]);
-  [[maybe_unused]] const volatile double read = sum;
-}
-
-}  // namespace
 
 BodyRun::Times BodyRun::time_round(contestants::Contestant& contestant, const BodyQuestion& question,
                                    bool prepared) {

@@ -144,9 +144,8 @@ std::string_view name_of(Shrinks shrinks) noexcept { return support::name_in(shr
 
 std::vector<Growth> growth_of(const std::vector<measurement::ResultRow>& rows, Shrinks shrinks) {
   std::vector<const measurement::ResultRow*> fitted;
-  for (const measurement::ResultRow& row : rows) {
+  for (const measurement::ResultRow& row : rows)
     if (row.status == "ok") fitted.push_back(&row);
-  }
   const auto curves = support::grouped_by(fitted, [](Row row) {
     return std::tuple(row.contestant(), row.trajectory, row.query, family_of(row.mesh));
   });

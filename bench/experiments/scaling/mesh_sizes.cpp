@@ -42,14 +42,13 @@ std::vector<std::uint64_t> parse_sizes(const std::string& text, const SizesOf& o
   std::vector<std::uint64_t> sizes;
   for (const std::string_view part : support::split(text, ',')) {
     const std::optional<std::uint64_t> size = parse_size(part, of);
-    if (!size) {
+    if (!size)
       throw std::invalid_argument(
           fmt::format("--sizes \"{}\": \"{}\" is not a whole number of {} from {} to {}, as 5000, 5k or 1.5M",
                       text, part, of.what, of.least, of.most));
-    }
     sizes.push_back(*size);
   }
-  std::sort(sizes.begin(), sizes.end());
+  std::ranges::sort(sizes);
   sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
   if (sizes.size() < 2)
     throw std::invalid_argument(fmt::format("--sizes \"{}\" has not two different sizes", text));
@@ -70,14 +69,12 @@ std::vector<std::string> meshes_of_sizes(const std::vector<std::string>& names, 
       meshes.push_back(name);
     }
   }
-  if (!sizes.empty() && std::none_of(names.begin(), names.end(), comes_in_sizes)) {
+  if (!sizes.empty() && std::ranges::none_of(names, comes_in_sizes))
     throw std::invalid_argument(
         fmt::format("--sizes \"{}\": none of the meshes comes in any size; noisy-sphere and soup do", sizes));
-  }
-  if (meshes.size() < 2) {
+  if (meshes.size() < 2)
     throw std::invalid_argument(fmt::format(
         "--mesh \"{}\" is one size: name noisy-sphere, soup or dragon, or several meshes", meshes.front()));
-  }
   return meshes;
 }
 

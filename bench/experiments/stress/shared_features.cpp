@@ -111,6 +111,18 @@ std::vector<Vec3> directions(std::size_t count, CornerCases& cases) {
   return all;
 }
 
+/// These centres first, then others about them, from a diagonal away to hardly beside them.
+std::vector<Vec3> centers_near(const std::vector<Vec3>& given, double diagonal, std::size_t count,
+                               CornerCases& cases) {
+  std::vector<Vec3> centers(given.begin(),
+                            given.begin() + static_cast<std::ptrdiff_t>(std::min(count, given.size())));
+  while (centers.size() < count) {
+    const double distance = std::ldexp(diagonal, -static_cast<int>(cases.below(60)));
+    centers.push_back(given[cases.below(given.size())] + distance * cases.vector());
+  }
+  return centers;
+}
+
 }  // namespace
 
 std::vector<SharedFeature> shared_feature_meshes(std::size_t triangles) {
@@ -128,22 +140,6 @@ std::vector<SharedFeature> shared_feature_meshes(std::size_t triangles) {
   all.push_back(tangents("tangent faces", directions(triangles, cases), true));
   return all;
 }
-
-namespace {
-
-/// These centres first, then others about them, from a diagonal away to hardly beside them.
-std::vector<Vec3> centers_near(const std::vector<Vec3>& given, double diagonal, std::size_t count,
-                               CornerCases& cases) {
-  std::vector<Vec3> centers(given.begin(),
-                            given.begin() + static_cast<std::ptrdiff_t>(std::min(count, given.size())));
-  while (centers.size() < count) {
-    const double distance = std::ldexp(diagonal, -static_cast<int>(cases.below(60)));
-    centers.push_back(given[cases.below(given.size())] + distance * cases.vector());
-  }
-  return centers;
-}
-
-}  // namespace
 
 std::vector<workload::Workload> shared_features(std::uint64_t seed, std::size_t probes) {
   std::vector<SharedFeature> all = shared_feature_meshes(200);

@@ -26,7 +26,7 @@ constexpr measurement::Effort first_effort{1, 0, pass_budget_ns, 0}, further_eff
 std::string repeat_command(const Family& family, std::uint64_t seed, std::size_t probes,
                            std::size_t workload_index, const workload::Workload& workload,
                            const measurement::ResultRow& row) {
-  const auto trace = std::find(workload.trajectories.begin(), workload.trajectories.end(), row.trajectory);
+  const auto trace = std::ranges::find(workload.trajectories, row.trajectory);
   return fmt::format("touchmark stress --family {} --seed {} --probes {} {} --repeat {}/{}/{}/", family.name,
                      seed, probes, row.as_typed(), name_of(row.query), workload_index,
                      trace - workload.trajectories.begin());
@@ -63,10 +63,9 @@ void StressRun::run_round(const Family& family, std::uint64_t seed, std::size_t 
     return;
   }
   ++counts_[&family].rounds;
-  for (std::size_t workload_index = 0; workload_index < workloads.size(); ++workload_index) {
+  for (std::size_t workload_index = 0; workload_index < workloads.size(); ++workload_index)
     if (!workloads[workload_index].traces.empty())
       run_workload(family, seed, probes, workload_index, workloads[workload_index], progress);
-  }
 }
 
 void StressRun::run_workload(const Family& family, std::uint64_t seed, std::size_t probes,
@@ -93,9 +92,8 @@ void StressRun::run_workload(const Family& family, std::uint64_t seed, std::size
   }
   keep();
   for (const std::vector<workload::Step>& trace : workload.traces) counts_[&family].probes += trace.size();
-  for (std::size_t i = 0; i < request_.contestants.size(); ++i) {
+  for (std::size_t i = 0; i < request_.contestants.size(); ++i)
     if (comparison.contestants()[i].opened().flushed_to_zero) flushed_to_zero_[i] = true;
-  }
 }
 
 /// There is no mesh to give to any of them.
@@ -114,21 +112,19 @@ void StressRun::refuse_all(const Family& family, const std::string& why) {
 }
 
 std::size_t StressRun::place_of(const Score& score) const {
-  const auto spec = std::find_if(request_.contestants.begin(), request_.contestants.end(),
-                                 [&](const contestants::ContestantSpec& one) {
-                                   return one.name == score.detector && one.options == score.options;
-                                 });
+  const auto spec = std::ranges::find_if(request_.contestants, [&](const contestants::ContestantSpec& one) {
+    return one.name == score.detector && one.options == score.options;
+  });
   return static_cast<std::size_t>(spec - request_.contestants.begin());
 }
 
 void StressRun::add(const Family& family, const measurement::ResultRow& row, bool of_another_mesh) {
-  auto score =
-      std::find_if(scores_.begin(), scores_.end(), [&](const Score& one) { return one.is_of(row, family); });
+  auto score = std::ranges::find_if(scores_, [&](const Score& one) { return one.is_of(row, family); });
   if (score == scores_.end()) {
     // Family by family they are found; contestant by contestant they are told.
     const Score first(row, family);
-    const auto after = std::find_if(scores_.begin(), scores_.end(),
-                                    [&](const Score& other) { return place_of(other) > place_of(first); });
+    const auto after =
+        std::ranges::find_if(scores_, [&](const Score& other) { return place_of(other) > place_of(first); });
     score = scores_.insert(after, first);
   }
   score->add(row, of_another_mesh);

@@ -69,10 +69,9 @@ class SuiteCheck {
 
   void check_status() {
     const bool ok = field("status") == "ok";
-    for (const char* const column : {"form", "ns"}) {
+    for (const char* const column : {"form", "ns"})
       if (field(column).empty() == ok)
         fault(column, ok ? "must not be empty where the status is ok" : "must be empty");
-    }
   }
 
   /// A ratio is that of its times, and the fastest of all is no slower than the fastest exact one.

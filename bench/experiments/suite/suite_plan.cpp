@@ -56,9 +56,8 @@ SuiteCell take_rarest(std::vector<SuiteCell>& left, Counts& of_mesh, Counts& of_
   };
   auto best = left.begin();
   double most = -1;
-  for (auto cell = left.begin(); cell != left.end(); ++cell) {
+  for (auto cell = left.begin(); cell != left.end(); ++cell)
     if (const double here = score(*cell); here > most) best = cell, most = here;
-  }
   SuiteCell taken = *best;
   left.erase(best);
   for (const std::string& property : properties_of(taken)) {

@@ -120,7 +120,7 @@ class Field {
 };
 
 const ResultRow* row_of(const std::vector<ResultRow>& rows, const std::string& contestant, TimeOf time) {
-  const auto found = std::find_if(rows.begin(), rows.end(), [&](const ResultRow& row) {
+  const auto found = std::ranges::find_if(rows, [&](const ResultRow& row) {
     return row.contestant() == contestant && is_right(row) && time(row);
   });
   return found == rows.end() ? nullptr : &*found;

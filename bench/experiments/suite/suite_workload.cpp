@@ -13,7 +13,7 @@ MeshWorkload workload_of(const SuiteMesh& planned, const TriangleMesh& mesh, std
   MeshWorkload all{{results::without_directories(planned.mesh), mesh, 0, {}, {}, {}}, {}};
   std::vector<const SuiteCell*> made;
   for (const SuiteCell& cell : planned.cells) {
-    const auto known = std::find_if(made.begin(), made.end(), [&](const SuiteCell* other) {
+    const auto known = std::ranges::find_if(made, [&](const SuiteCell* other) {
       return other->trajectory == cell.trajectory && other->reach == cell.reach;
     });
     all.trace_of.push_back(static_cast<std::size_t>(known - made.begin()));

@@ -95,7 +95,7 @@ void UpdateRun::measure(workers::ContestantProcess& process, std::size_t index, 
   DeformedMesh& changed = *meshes_[index];
   const workers::Built& built = process.build();
   row.accuracy = built.accuracy;
-  const bool answers = std::find(built.queries.begin(), built.queries.end(), query_) != built.queries.end();
+  const bool answers = std::ranges::find(built.queries, query_) != built.queries.end();
   const workers::Updated updated =
       answers ? process.ask(workers::request::Update{changed.deformation}) : workers::Updated{};
   if (!updated.supported) {

@@ -48,8 +48,7 @@ struct ConvexFreeSpace::Planes {
   Number slack{0, bits};
 
   bool is_free(const Point& x) const {
-    return std::all_of(all.begin(), all.end(),
-                       [&](const HalfSpace& plane) { return plane.height(x) >= -slack; });
+    return std::ranges::all_of(all, [&](const HalfSpace& plane) { return plane.height(x) >= -slack; });
   }
   /// The goal's nearest point on these planes, if it is free and each plane pushes. Cramer's rule on the
   /// products of the normals; sets of fewer than three are filled up with rows of the identity.

@@ -31,10 +31,9 @@ Direction draw(support::Random& random) {
 }
 
 bool may_contain(const Triangle& t, const Vec3& p) {
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 3; ++k)
     if (p[k] < std::min({t[0][k], t[1][k], t[2][k]}) || p[k] > std::max({t[0][k], t[1][k], t[2][k]}))
       return false;
-  }
   return true;
 }
 
@@ -111,7 +110,7 @@ bool is_closed(std::span<const Triangle> triangles) {
       if (b < a) --balance[{b, a}];
     }
   }
-  return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
+  return std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
 }
 
 /// About the first corner; a closed surface has the same volume about any point.

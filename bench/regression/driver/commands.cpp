@@ -2,8 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
 #include <stdexcept>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,17 +22,180 @@
 #define TOUCHMARK_HAS_CALLGRIND 0
 #endif
 
+#include "bench/meshes/meshes.h"
 #include "bench/regression/driver/cases.h"
-#include "bench/regression/driver/plugin_library.h"
-#include "bench/regression/driver/workloads.h"
+#include "bench/regression/driver/plugin.h"
 #include "bench/support/failures.h"
 #include "bench/support/files/atomic_file.h"
 #include "bench/support/interleaving.h"
 #include "bench/support/random.h"
 #include "bench/support/system/processor_time.h"
+#include "bench/trajectories/trajectories.h"
+#include "core/triangle_mesh.h"
+
+#if defined(_WIN32)
+#include <windows.h>
+#else
+#include <dlfcn.h>
+#endif
 
 namespace touchmark::bench::regression::driver {
 namespace {
+
+/// A case's mesh and trajectory, as plain numbers that a plug-in takes.
+struct Workload {
+  TouchmarkGateMesh mesh = {};
+  TouchmarkGatePass pass = {};
+  std::uint64_t inputs = 0;  ///< a checksum of mesh and pass
+};
+
+constexpr double radius_of_diagonal = 0.005;
+
+std::vector<double> flat(std::span<const Vec3> points) {
+  std::vector<double> numbers;
+  numbers.reserve(3 * points.size());
+  for (const Vec3& p : points) numbers.insert(numbers.end(), {p.x(), p.y(), p.z()});
+  return numbers;
+}
+
+/// FNV-1a, a word at a time.
+class Fingerprint {
+ public:
+  void add(std::uint64_t word) noexcept { value_ = (value_ ^ word) * 0x100000001b3ULL; }
+  void add(const double* numbers, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) add(std::bit_cast<std::uint64_t>(numbers[i]));
+  }
+  std::uint64_t value() const noexcept { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+std::uint64_t fingerprint(const Workload& workload) {
+  Fingerprint print;
+  print.add(workload.mesh.vertices, 3 * workload.mesh.vertex_count);
+  for (std::size_t i = 0; i < 3 * workload.mesh.triangle_count; ++i) print.add(workload.mesh.triangles[i]);
+  print.add(workload.pass.centers, 3 * workload.pass.count);
+  print.add(&workload.pass.radius, 1);
+  print.add(&workload.pass.reach, 1);
+  return print.value();
+}
+
+/// Each mesh and each trajectory is made once.
+class Workloads {
+ public:
+  /// False where its mesh is not installed.
+  bool available(const Case& asked) {
+    if (!asked.needs_file()) return true;
+    const std::vector<meshes::NamedMesh> known = meshes::named_meshes();
+    return std::ranges::any_of(
+        known, [&](const meshes::NamedMesh& info) { return info.name == asked.mesh && info.available; });
+  }
+
+  /// The pointers stay good for as long as this object lives. The probe's radius and reach are 0.5 % of the
+  /// diagonal.
+  Workload of(const Case& asked) {
+    const LoadedMesh& loaded = this->mesh(asked.mesh);
+    const double radius = radius_of_diagonal * loaded.mesh.diagonal();
+    std::vector<double>& centers =
+        centers_[{asked.mesh + std::string(1, '/') + asked.trajectory, asked.steps}];
+    if (centers.empty())
+      centers = flat(
+          trajectories::make_trajectory(asked.trajectory, loaded.mesh, {asked.steps, 1, radius}).positions);
+    Workload workload;
+    workload.mesh = {loaded.vertices.data(), loaded.vertices.size() / 3, loaded.triangles.data(),
+                     loaded.triangles.size() / 3};
+    workload.pass = {asked.query, centers.data(), centers.size() / 3, radius, radius};
+    workload.inputs = fingerprint(workload);
+    return workload;
+  }
+
+ private:
+  struct LoadedMesh {
+    TriangleMesh mesh;
+    std::vector<double> vertices;
+    std::vector<std::uint32_t> triangles;
+  };
+  const LoadedMesh& mesh(const std::string& name) {
+    const auto found = meshes_.find(name);
+    if (found != meshes_.end()) return found->second;
+    TriangleMesh mesh = meshes::load_mesh(name);
+    std::vector<double> vertices = flat(mesh.vertices());
+    std::vector<std::uint32_t> triangles;
+    triangles.reserve(3 * mesh.size());
+    for (const TriangleMesh::Corners& corners : mesh.triangles())
+      triangles.insert(triangles.end(), corners.begin(), corners.end());
+    return meshes_.emplace(name, LoadedMesh{std::move(mesh), std::move(vertices), std::move(triangles)})
+        .first->second;
+  }
+
+  std::map<std::string, LoadedMesh> meshes_;
+  std::map<std::pair<std::string, std::size_t>, std::vector<double>> centers_;
+};
+
+#if defined(_WIN32)
+HMODULE load(const std::filesystem::path& path) { return ::LoadLibraryW(path.c_str()); }
+void* symbol(HMODULE from, const char* name) { return reinterpret_cast<void*>(::GetProcAddress(from, name)); }
+std::string last_error() { return "error " + std::to_string(::GetLastError()); }
+#else
+void* load(const std::filesystem::path& path) { return ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); }
+void* symbol(void* from, const char* name) { return ::dlsym(from, name); }
+std::string last_error() { return ::dlerror(); }
+#endif
+
+template <class Library, class Function>
+void find(Library library, const char* name, Function& function) {
+  function = reinterpret_cast<Function>(symbol(library, name));
+  if (function == nullptr) throw std::invalid_argument("not a plug-in: " + last_error());
+}
+
+/// A loaded plug-in: one build of the core. Never unloaded: a detector may outlive it.
+class PluginLibrary {
+ public:
+  struct Destroy {
+    decltype(&touchmark_gate_destroy) destroy = nullptr;
+    void operator()(TouchmarkGateDetector* detector) const { destroy(detector); }
+  };
+  using Detector = std::unique_ptr<TouchmarkGateDetector, Destroy>;
+
+  /// Files of different names are loaded apart, even when one is a copy of the other. Throws
+  /// std::invalid_argument for a file that is no plug-in.
+  explicit PluginLibrary(const std::string& path) {
+    // A path without a slash would be looked for among the system's libraries.
+    const auto library = load(std::filesystem::absolute(path).make_preferred());
+    if (library == nullptr) throw std::invalid_argument("cannot load plug-in " + path + ": " + last_error());
+    find(library, "touchmark_gate_build", build_);
+    find(library, "touchmark_gate_answer", answer_);
+    find(library, "touchmark_gate_replay", replay_);
+    find(library, "touchmark_gate_destroy", destroy_);
+  }
+
+  /// Throws std::runtime_error, with the core's own words, when it refuses.
+  Detector build(const std::string& name, const TouchmarkGateMesh& mesh) const {
+    std::array<char, 500> error = {};
+    Detector detector(build_(name.c_str(), &mesh, error.data(), error.size()), Destroy{destroy_});
+    if (!detector) throw std::runtime_error(error.data());
+    return detector;
+  }
+
+  TouchmarkGateResult answer(const Detector& detector, const TouchmarkGatePass& pass) const {
+    TouchmarkGateResult result = {};
+    answer_(detector.get(), &pass, &result);
+    return result;
+  }
+
+  TouchmarkGateResult replay(const Detector& detector, const TouchmarkGatePass& pass) const {
+    TouchmarkGateResult result = {};
+    replay_(detector.get(), &pass, &result);
+    return result;
+  }
+
+ private:
+  decltype(&touchmark_gate_build) build_;
+  decltype(&touchmark_gate_answer) answer_;
+  decltype(&touchmark_gate_replay) replay_;
+  decltype(&touchmark_gate_destroy) destroy_;
+};
 
 std::string row_without_numbers(const Case& asked, std::string_view why) {
   return fmt::format("\"{}\",{:d},,,,,,,,\"{}\"\n", asked.name(), asked.needs_file(), why);
@@ -60,7 +231,7 @@ std::vector<Group> timed_groups(const std::vector<std::string>& only, Workloads&
   std::vector<Group> groups;
   std::size_t found = 0;
   for (const Case& asked : cases()) {
-    const bool wanted = only.empty() || std::find(only.begin(), only.end(), asked.name()) != only.end();
+    const bool wanted = only.empty() || std::ranges::find(only, asked.name()) != only.end();
     if (!asked.timed || !wanted) continue;
     ++found;
     if (!workloads.available(asked)) continue;

@@ -85,9 +85,8 @@ class FullAnswers {
  private:
   void add(const Contact& contact) noexcept {
     for (const double x : {contact.point.x(), contact.point.y(), contact.point.z(), contact.normal.x(),
-                           contact.normal.y(), contact.normal.z()}) {
+                           contact.normal.y(), contact.normal.z()})
       details_ = (std::rotl(details_, 7) ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL;
-    }
   }
 
   Answers answers_;

@@ -30,8 +30,7 @@ class Record {
 
   const std::string& text(const std::string& column) const {
     static const std::string nothing;
-    const auto at =
-        static_cast<std::size_t>(std::find(header_.begin(), header_.end(), column) - header_.begin());
+    const auto at = static_cast<std::size_t>(std::ranges::find(header_, column) - header_.begin());
     return at < header_.size() ? fields_[at] : nothing;
   }
   bool has(const std::string& column) const { return !text(column).empty(); }
@@ -102,30 +101,26 @@ Baseline Baseline::read(const std::string& path) {
   support::CsvReader reader(path);
   std::vector<std::string> header, fields;
   reader.next(header);
-  for (std::size_t i = 0; i < needed_columns; ++i) {
-    if (std::find(header.begin(), header.end(), columns[i]) == header.end()) {
+  for (std::size_t i = 0; i < needed_columns; ++i)
+    if (std::ranges::find(header, columns[i]) == header.end())
       throw reader.error(fmt::format("the header has no column {}", columns[i]));
-    }
-  }
   Baseline baseline;
   while (reader.next(fields)) {
-    if (fields.size() != header.size()) {
+    if (fields.size() != header.size())
       throw reader.error(fmt::format("the line has {} fields, the header {}", fields.size(), header.size()));
-    }
     baseline.rows_.push_back(row_of({reader, header, fields}));
   }
   return baseline;
 }
 
 const BaselineRow* Baseline::find(const GateKey& key) const noexcept {
-  const auto found =
-      std::find_if(rows_.begin(), rows_.end(), [&](const BaselineRow& row) { return row.key == key; });
+  const auto found = std::ranges::find_if(rows_, [&](const BaselineRow& row) { return row.key == key; });
   return found == rows_.end() ? nullptr : &*found;
 }
 
 void Baseline::put(BaselineRow row) {
-  const auto found = std::find_if(rows_.begin(), rows_.end(),
-                                  [&](const BaselineRow& other) { return other.key == row.key; });
+  const auto found =
+      std::ranges::find_if(rows_, [&](const BaselineRow& other) { return other.key == row.key; });
   if (found == rows_.end()) {
     rows_.push_back(std::move(row));
   } else {

@@ -19,7 +19,7 @@ RatioInterval median_ratio(std::span<const double> log_ratios, std::uint64_t see
     for (double& value : drawn) value = log_ratios[random.below(log_ratios.size())];
     medians.push_back(support::median(drawn));
   }
-  std::sort(medians.begin(), medians.end());
+  std::ranges::sort(medians);
   return {std::exp(support::median({log_ratios.begin(), log_ratios.end()})), std::exp(medians[beyond]),
           std::exp(medians[resamples - 1 - beyond])};
 }

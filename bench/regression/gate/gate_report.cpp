@@ -20,10 +20,9 @@ std::vector<std::string> cells_of(const GateLine& line) {
   const auto& [ratio, control] = line.judgement.batch;
   const std::string baseline = line.baseline ? fmt::format("{:.4g}", line.baseline->ratio) : "-";
   const std::string batches = std::to_string(line.judgement.batches);
-  if (line.judgement.batches == 0) {
+  if (line.judgement.batches == 0)
     return {line.key.trajectory, line.key.detector, baseline, "-", "-", "-", "-", batches,
             line.answers,        line.verdict};
-  }
   return {line.key.trajectory, line.key.detector, baseline,         fmt::format("{:.4g}", ratio.ratio),
           text_of(ratio),      change_in(line),   text_of(control), batches,
           line.answers,        line.verdict};

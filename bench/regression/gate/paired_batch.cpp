@@ -43,9 +43,8 @@ class PairedBatches::Contender {
  public:
   void build() {
     const workers::Built& built = attempt([&] { return process_.build(); });
-    if (std::find(built.queries.begin(), built.queries.end(), task_.query) == built.queries.end()) {
+    if (std::ranges::find(built.queries, task_.query) == built.queries.end())
       fail("does not answer this query");
-    }
     accuracy_ = built.accuracy;
   }
 
@@ -66,9 +65,8 @@ class PairedBatches::Contender {
     const std::size_t count = workload::steps_in(ranges);
     const oracle::ErrorCounts counts = truths.judge(task_.query, ranges, buffers.answers(count), accuracy_);
     judged_ += counts.judged;
-    if (!oracle::meets_guarantee(counts, accuracy_)) {
+    if (!oracle::meets_guarantee(counts, accuracy_))
       fail("gives wrong answers (touchmark verify says which)");
-    }
     const GateAnswers answers{answered.checksum,
                               measurement::summarize_work(buffers.work(count), answered.work)};
     verified_ = attempt([&] {

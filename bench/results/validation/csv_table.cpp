@@ -10,11 +10,11 @@
 namespace touchmark::bench::results::validation {
 
 bool CsvTable::has(const std::string& column) const {
-  return std::find(header.begin(), header.end(), column) != header.end();
+  return std::ranges::find(header, column) != header.end();
 }
 
 std::string CsvTable::field(const CsvRecord& record, const std::string& column) const {
-  const auto at = static_cast<std::size_t>(std::find(header.begin(), header.end(), column) - header.begin());
+  const auto at = static_cast<std::size_t>(std::ranges::find(header, column) - header.begin());
   return at < header.size() && at < record.fields.size() ? record.fields[at] : "";
 }
 
@@ -54,9 +54,8 @@ CsvTable read_csv_table(const std::string& path, Faults& faults) {
   support::CsvReader reader(path);
   try {
     if (!reader.next(table.header)) faults.push_back({path, 0, "", "", "the file is empty"});
-    for (std::vector<std::string> fields; reader.next(fields);) {
+    for (std::vector<std::string> fields; reader.next(fields);)
       table.records.push_back({reader.line(), fields});
-    }
   } catch (const std::invalid_argument& error) {
     // It says "path:line: what" itself.
     const std::string text = error.what();
@@ -71,9 +70,8 @@ void check_form(const CsvTable& table, Faults& faults) {
   std::set<std::string> names;
   for (const std::string& name : table.header) {
     if (name.empty()) faults.push_back({table.path, 1, "header", name, "is a column without a name"});
-    if (!name.empty() && !names.insert(name).second) {
+    if (!name.empty() && !names.insert(name).second)
       faults.push_back({table.path, 1, "header", name, "is there twice"});
-    }
   }
   for (const CsvRecord& record : table.records) {
     if (record.fields.size() == table.header.size()) continue;

@@ -22,10 +22,9 @@ struct Location {
 void check(const Json& schema, const Location& location, std::vector<SchemaFault>& faults);
 
 bool has_type(const Json& value, std::string_view type) {
-  if (type == "integer") {
+  if (type == "integer")
     return value.is_number_integer() ||
            (value.is_number_float() && value.get<double>() == std::trunc(value.get<double>()));
-  }
   return (type == "object" && value.is_object()) || (type == "array" && value.is_array()) ||
          (type == "string" && value.is_string()) || (type == "number" && value.is_number()) ||
          (type == "boolean" && value.is_boolean()) || (type == "null" && value.is_null());
@@ -45,14 +44,11 @@ void fail(const Location& location, std::string wrong, std::vector<SchemaFault>&
 std::string child(const Location& location, const std::string& key) { return location.pointer + "/" + key; }
 
 void check_members(const Json& schemas, const Location& location, std::vector<SchemaFault>& faults) {
-  if (!location.value.is_object()) return;
-  for (const auto& [key, member] : location.value.items()) {
+  for (const auto& [key, member] : location.value.items())
     if (schemas.contains(key)) check(schemas[key], {child(location, key), member}, faults);
-  }
 }
 
 void check_required(const Json& keys, const Location& location, std::vector<SchemaFault>& faults) {
-  if (!location.value.is_object()) return;
   for (const Json& key : keys) {
     if (location.value.contains(key.get<std::string>())) continue;
     faults.push_back({child(location, key), "", "is missing"});
@@ -61,26 +57,21 @@ void check_required(const Json& keys, const Location& location, std::vector<Sche
 
 /// Checks all members: no schema has `properties` beside it, which would name some of them.
 void check_every_member(const Json& schema, const Location& location, std::vector<SchemaFault>& faults) {
-  if (!location.value.is_object()) return;
   for (const auto& [key, member] : location.value.items())
     check(schema, {child(location, key), member}, faults);
 }
 
 void check_items(const Json& schema, const Location& location, std::vector<SchemaFault>& faults) {
-  if (!location.value.is_array()) return;
-  for (std::size_t i = 0; i < location.value.size(); ++i) {
+  for (std::size_t i = 0; i < location.value.size(); ++i)
     check(schema, {child(location, std::to_string(i)), location.value[i]}, faults);
-  }
 }
 
 void check_pattern(const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-  if (!location.value.is_string()) return;
   constexpr std::size_t longest = 4096;  // the library's matcher recurs once a character
   const auto& pattern = keyword.get_ref<const std::string&>();
   const auto& text = location.value.get_ref<const std::string&>();
-  if (text.size() > longest || !std::regex_search(text, std::regex(pattern))) {
+  if (text.size() > longest || !std::regex_search(text, std::regex(pattern)))
     fail(location, fmt::format("does not match {}", pattern), faults);
-  }
 }
 
 void check_any_of(const Json& schemas, const Location& location, std::vector<SchemaFault>& faults) {
@@ -93,82 +84,57 @@ void check_any_of(const Json& schemas, const Location& location, std::vector<Sch
 }
 
 void check_type(const Json& types, const Location& location, std::vector<SchemaFault>& faults) {
-  if (!has_type(location.value, types.get<std::string>())) {
+  if (!has_type(location.value, types.get<std::string>()))
     fail(location, fmt::format("is not of type {}", types.get<std::string>()), faults);
-  }
 }
 
-void check_size(const Json& limit, const Location& location, std::vector<SchemaFault>& faults, bool least) {
-  if (!location.value.is_array()) return;
-  const std::size_t size = location.value.size(), bound = limit.get<std::size_t>();
-  if (least ? size < bound : size > bound) {
-    fail(location, fmt::format("has {} items, not at {} {}", size, least ? "least" : "most", bound), faults);
-  }
-}
-
-using Check = void (*)(const Json& keyword, const Location& location, std::vector<SchemaFault>& faults);
+using J = const Json&;
 
 struct Keyword {
   std::string_view name;
-  Check check;
+  std::string_view of;  ///< the type of the values that it is about; empty: any
+  void (*check)(J keyword, const Location& location, std::vector<SchemaFault>& faults);
+  bool (*holds)(J limit, J value) = nullptr;  ///< asked where check is null
+  const char* wrong = "";  ///< told where the limit does not hold; {}: it; {1}: the value's size
 };
 
 constexpr std::array keywords{
-    Keyword{"type", &check_type},
-    Keyword{"properties", &check_members},
-    Keyword{"required", &check_required},
-    Keyword{"additionalProperties", &check_every_member},
-    Keyword{"items", &check_items},
-    Keyword{"pattern", &check_pattern},
-    Keyword{"anyOf", &check_any_of},
-    Keyword{"const",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (location.value != keyword) fail(location, fmt::format("is not {}", keyword.dump()), faults);
-            }},
-    Keyword{"enum",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (std::find(keyword.begin(), keyword.end(), location.value) != keyword.end()) return;
-              fail(location, fmt::format("is none of {}", keyword.dump()), faults);
-            }},
-    Keyword{"minLength",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (!location.value.is_string()) return;
-              if (location.value.get_ref<const std::string&>().size() >= keyword.get<std::size_t>()) return;
-              fail(location, "is too short", faults);
-            }},
-    Keyword{"minimum",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (location.value.is_number() && location.value < keyword) {
-                fail(location, fmt::format("is below {}", keyword.dump()), faults);
-              }
-            }},
-    Keyword{"maximum",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              if (location.value.is_number() && location.value > keyword) {
-                fail(location, fmt::format("is above {}", keyword.dump()), faults);
-              }
-            }},
-    Keyword{"minItems",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              check_size(keyword, location, faults, true);
-            }},
-    Keyword{"maxItems",
-            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
-              check_size(keyword, location, faults, false);
-            }},
-};
+    Keyword{"type", "", &check_type},
+    Keyword{"properties", "object", &check_members},
+    Keyword{"required", "object", &check_required},
+    Keyword{"additionalProperties", "object", &check_every_member},
+    Keyword{"items", "array", &check_items},
+    Keyword{"pattern", "string", &check_pattern},
+    Keyword{"anyOf", "", &check_any_of},
+    Keyword{"const", "", nullptr, [](J limit, J value) { return value == limit; }, "is not {}"},
+    Keyword{"enum", "", nullptr,
+            [](J limit, J value) { return std::ranges::find(limit, value) != limit.end(); }, "is none of {}"},
+    Keyword{"minLength", "string", nullptr,
+            [](J limit, J value) { return value.get_ref<const std::string&>().size() >= limit; },
+            "is too short"},
+    Keyword{"minimum", "number", nullptr, [](J limit, J value) { return value >= limit; }, "is below {}"},
+    Keyword{"maximum", "number", nullptr, [](J limit, J value) { return value <= limit; }, "is above {}"},
+    Keyword{"minItems", "array", nullptr, [](J limit, J value) { return value.size() >= limit; },
+            "has {1} items, not at least {0}"},
+    Keyword{"maxItems", "array", nullptr, [](J limit, J value) { return value.size() <= limit; },
+            "has {1} items, not at most {0}"}};
 
 constexpr std::array notes{"$schema", "$id", "title", "description"};
 
 const Keyword* keyword_named(const std::string& name) {
-  const auto* const found = std::find_if(keywords.begin(), keywords.end(),
-                                         [&](const Keyword& keyword) { return keyword.name == name; });
+  const auto* const found =
+      std::ranges::find_if(keywords, [&](const Keyword& keyword) { return keyword.name == name; });
   return found == keywords.end() ? nullptr : &*found;
 }
 
 void check(const Json& schema, const Location& location, std::vector<SchemaFault>& faults) {
   for (const auto& [name, value] : schema.items()) {
-    if (const Keyword* const keyword = keyword_named(name)) keyword->check(value, location, faults);
+    const Keyword* const keyword = keyword_named(name);
+    if (keyword == nullptr || (!keyword->of.empty() && !has_type(location.value, keyword->of))) continue;
+    if (keyword->check != nullptr)
+      keyword->check(value, location, faults);
+    else if (!keyword->holds(value, location.value))
+      fail(location, fmt::format(fmt::runtime(keyword->wrong), value.dump(), location.value.size()), faults);
   }
 }
 
@@ -176,16 +142,15 @@ void check(const Json& schema, const Location& location, std::vector<SchemaFault
 void expect_known_keywords(const Json& schema) {
   if (!schema.is_object()) throw std::logic_error("a schema is not an object: " + schema.dump());
   for (const auto& [name, value] : schema.items()) {
-    const bool is_note = std::find(notes.begin(), notes.end(), name) != notes.end();
+    const bool is_note = std::ranges::find(notes, name) != notes.end();
     if (!is_note && keyword_named(name) == nullptr) throw std::logic_error("unknown schema keyword " + name);
     if (name == "items" || name == "additionalProperties") expect_known_keywords(value);
     if (name == "properties" || name == "anyOf") {
       for (const Json& within : value) expect_known_keywords(within);
     }
   }
-  if (schema.contains("properties") && schema.contains("additionalProperties")) {
+  if (schema.contains("properties") && schema.contains("additionalProperties"))
     throw std::logic_error("properties and additionalProperties of one schema");
-  }
 }
 
 }  // namespace
@@ -199,10 +164,9 @@ std::vector<SchemaFault> JsonSchema::check(const nlohmann::json& document) const
 }
 
 void JsonSchema::check(const std::string& path, const LocatedJson& document, Faults& faults) const {
-  for (const SchemaFault& fault : check(document.value)) {
+  for (const SchemaFault& fault : check(document.value))
     faults.push_back({path, document.line_of(fault.pointer), fault.pointer.empty() ? "/" : fault.pointer,
                       fault.value, fault.wrong});
-  }
 }
 
 }  // namespace touchmark::bench::results::validation

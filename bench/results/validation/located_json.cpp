@@ -73,9 +73,8 @@ class Locator : public nlohmann::json_sax<nlohmann::json> {
   bool end_array() override { return close(); }
   bool key(std::string& name) override {
     open_.back().key = escaped(name);
-    if (!open_.back().keys.insert(name).second) {
+    if (!open_.back().keys.insert(name).second)
       faults_.push_back({path_, line(0), pointer(), name, "is there twice"});
-    }
     return true;
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override {

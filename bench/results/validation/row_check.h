@@ -53,9 +53,8 @@ template <class Columns, class Check>
 bool check_rows(const CsvTable& table, const Columns& columns, std::size_t required, Faults& faults,
                 Check check) {
   if (!begins_with_columns(table, names_of(columns), required, faults)) return false;
-  for (const CsvRecord& record : table.records) {
+  for (const CsvRecord& record : table.records)
     if (record.fields.size() == table.header.size()) check(RowCheck(table, record, faults));
-  }
   return true;
 }
 

@@ -63,34 +63,27 @@ class StepsCheck {
   }
 
   // Each throws Damage for what is not there or of another type.
-  static const Json& member(const Json& json, const char* name) {
+  using Name = const char*;
+  static const Json& member(const Json& json, Name name, bool (Json::*is)() const noexcept = nullptr,
+                            const char* kind = "") {
     if (!json.is_object() || !json.contains(name)) throw Damage{name, "is missing"};
+    if (is != nullptr && !(json[name].*is)()) throw Damage{name, fmt::format("is not {}", kind)};
     return json[name];
   }
-  static const Json& object(const Json& json, const char* name) {
-    const Json& found = member(json, name);
-    if (!found.is_object()) throw Damage{name, "is not an object"};
-    return found;
+  static const Json& object(const Json& json, Name name) {
+    return member(json, name, &Json::is_object, "an object");
   }
-  static const Json& list(const Json& json, const char* name) {
-    const Json& found = member(json, name);
-    if (!found.is_array()) throw Damage{name, "is not a list"};
-    return found;
+  static const Json& list(const Json& json, Name name) {
+    return member(json, name, &Json::is_array, "a list");
   }
-  static std::string text(const Json& json, const char* name) {
-    const Json& found = member(json, name);
-    if (!found.is_string()) throw Damage{name, "is not a text"};
-    return found.get<std::string>();
+  static std::string text(const Json& json, Name name) {
+    return member(json, name, &Json::is_string, "a text");
   }
-  static std::size_t count(const Json& json, const char* name) {
-    const Json& found = member(json, name);
-    if (!found.is_number_unsigned()) throw Damage{name, "is not a count"};
-    return found.get<std::size_t>();
+  static std::size_t count(const Json& json, Name name) {
+    return member(json, name, &Json::is_number_unsigned, "a count");
   }
-  static double number(const Json& json, const char* name) {
-    const Json& found = member(json, name);
-    if (!found.is_number()) throw Damage{name, "is not a number"};
-    return found.get<double>();
+  static double number(const Json& json, Name name) {
+    return member(json, name, &Json::is_number, "a number");
   }
 
   /// Returns the items of a block, whose type is to be this. Eight-byte items are looked at as bytes alone.
@@ -122,9 +115,8 @@ class StepsCheck {
     if (found != expected) throw Damage{name, fmt::format("has {} items in place of {}", found, expected)};
   }
   static void expect_below(const char* name, const std::vector<std::uint32_t>& items, std::size_t limit) {
-    for (const std::uint32_t item : items) {
+    for (const std::uint32_t item : items)
       if (item >= limit) throw Damage{name, fmt::format("names {} of {}", item, limit)};
-    }
   }
 
   void check_mesh(const Json& mesh) {

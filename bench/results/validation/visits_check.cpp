@@ -71,24 +71,22 @@ class VisitsCheck {
   }
 
   const CsvRecord* record_of(const Json& row) const {
-    for (const CsvRecord& record : results_->records) {
+    for (const CsvRecord& record : results_->records)
       if (results_->field(record, "detector") == row.at("detector").get<std::string>() &&
           results_->field(record, "options") == row.at("options").get<std::string>() &&
           results_->field(record, "trajectory") == row.at("trajectory").get<std::string>())
         return &record;
-    }
     return nullptr;
   }
 
   void check_step(const std::string& pointer, const Json& step) {
-    for (const char* boxes : {"cells", "groups", "boxes"}) {
+    for (const char* boxes : {"cells", "groups", "boxes"})
       check_each(pointer, step, boxes, [](const Json& box) -> const char* {
         for (std::size_t axis = 0; axis < 3; ++axis)
           if (!(box[axis] <= box[axis + 3])) return "is a box whose least is above its largest";
         if (box.size() > 6 && box[6] != 0 && box[6] != 1) return "has a mark that is not 0 or 1";
         return box.size() > 7 && !(box[7] >= 1) ? "is a group without triangles" : nullptr;
       });
-    }
     check_each(pointer, step, "cylinders", [](const Json& one) -> const char* {
       constexpr double single_precision = 1e-5;
       const double length = std::hypot(one[3].get<double>(), one[4].get<double>(), one[5].get<double>());
@@ -97,11 +95,10 @@ class VisitsCheck {
       return one[8] != 0 && one[8] != 1 ? "has a mark that is not 0 or 1" : nullptr;
     });
     if (!step.contains("left_out")) return;
-    for (const auto& [name, count] : step.at("left_out").items()) {
+    for (const auto& [name, count] : step.at("left_out").items())
       if (!step.contains(name) || step.at(name).size() != max_of_a_kind)
         fault(pointer + "/left_out/" + name, count.dump(),
               fmt::format("were left out of a list that does not hold {}", max_of_a_kind));
-    }
   }
 
   /// `wrong` returns what is wrong with an item, or null.

@@ -30,7 +30,7 @@ std::size_t lines_alike(const std::vector<std::string_view>& lines, char separat
   for (const std::string_view line : lines) {
     const std::vector<std::string> fields = split_fields(line, separator);
     alike = std::max(alike, ++lines_of_size[fields.size()]);
-    has_numbers = has_numbers || std::count_if(fields.begin(), fields.end(), [&](const std::string& field) {
+    has_numbers = has_numbers || std::ranges::count_if(fields, [&](const std::string& field) {
                                    return is_number(field, separator);
                                  }) >= 3;
   }
@@ -46,7 +46,7 @@ std::string_view trimmed(std::string_view text) noexcept {
 }
 
 bool has_words(std::string_view text) noexcept {
-  return std::any_of(text.begin(), text.end(), [](char c) {
+  return std::ranges::any_of(text, [](char c) {
     const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c & 0x80) != 0;
     return is_letter && c != 'e' && c != 'E';
   });
@@ -71,9 +71,8 @@ std::optional<std::string_view> comment_in(std::string_view line) noexcept {
   const std::size_t first = line.find_first_not_of(" \t");
   if (first == line.npos) return std::nullopt;
   line.remove_prefix(first);
-  for (const std::string_view mark : {"#", "%", "//"}) {
+  for (const std::string_view mark : {"#", "%", "//"})
     if (line.starts_with(mark)) return line.substr(mark.size());
-  }
   return std::nullopt;
 }
 

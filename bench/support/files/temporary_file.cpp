@@ -18,11 +18,10 @@ File temporary_file() {
   const std::string folder = set != nullptr && *set != '\0' ? set : "/tmp";
   std::string path = folder + "/touchmark-XXXXXX";
   const int descriptor = mkostemp(path.data(), O_CLOEXEC);
-  if (descriptor < 0) {
+  if (descriptor < 0)
     throw ResourceError(
         fmt::format("no temporary file can be made in {}: {}; set TMPDIR to a folder that can be written to",
                     folder, std::strerror(errno)));
-  }
   unlink(path.c_str());
   return File(fdopen(descriptor, "w+b"));
 }

@@ -88,9 +88,8 @@ std::string read_all(int in, std::chrono::milliseconds time) {
   for (;;) {
     check_for_interrupt();
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
-    if (left.count() <= 0) {
+    if (left.count() <= 0)
       throw ProcessFailure(fmt::format("took more than {:g} s", std::chrono::duration<double>(time).count()));
-    }
     pollfd waiting{in, POLLIN, 0};
     constexpr long between_checks = 100;
     if (poll(&waiting, 1, static_cast<int>(std::min<long>(left.count(), between_checks))) <= 0) continue;

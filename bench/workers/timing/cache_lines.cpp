@@ -75,10 +75,9 @@ CountsFolder::~CountsFolder() {
 void require_line_counting() {
   if (found_in_path("valgrind").empty())
     throw support::ResourceError("valgrind is missing, which counts cache lines: scripts/setup develop");
-  if (!has_headers) {
+  if (!has_headers)
     throw support::ResourceError(
         "built without valgrind's headers, which count cache lines: build again, with valgrind installed");
-  }
 }
 
 std::vector<std::string> counting_program(const std::filesystem::path& counts) {

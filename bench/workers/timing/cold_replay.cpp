@@ -58,7 +58,7 @@ ColdSamples run_cold(contestants::Contestant& contestant, const workload::QueryT
   constexpr std::size_t between_looks = 5;  // samples without a look at the time
   const Clock::time_point start = Clock::now();
   std::span<TickRecord> records = buffers.tick_records(request.floor_samples + request.max_samples);
-  std::fill(records.begin(), records.end(), TickRecord{});  // no page fault in a clocked query
+  std::ranges::fill(records, TickRecord{});  // no page fault in a clocked query
   assert(request.evicted_bytes <= memory.size());
   EvictionBuffer buffer(memory.first(request.evicted_bytes));
   EvictionBuffer* const eviction = request.evicted_bytes > 0 ? &buffer : nullptr;

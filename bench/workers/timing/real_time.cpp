@@ -24,11 +24,10 @@ constexpr std::uint64_t megabyte = 1U << 20U;
 bool has_capability(int capability) {
   std::ifstream status("/proc/self/status");
   constexpr std::string_view label = "CapEff:";
-  for (std::string line; std::getline(status, line);) {
+  for (std::string line; std::getline(status, line);)
     if (line.starts_with(label))
       return (std::strtoull(line.c_str() + label.size(), nullptr, 16) >> static_cast<unsigned>(capability) &
               1U) != 0;
-  }
   return false;
 }
 

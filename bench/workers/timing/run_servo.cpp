@@ -57,7 +57,7 @@ ServoStretch run_servo(contestants::Contestant& contestant, std::optional<contes
   }
   static const std::string locked = lock_memory();
   const std::span<TickRecord> records = buffers.tick_records(request.warm_up + request.ticks);
-  std::fill(records.begin(), records.end(), TickRecord{});  // no page fault inside the loop
+  std::ranges::fill(records, TickRecord{});  // no page fault inside the loop
   EvictionBuffer buffer(memory.first(request.evicted_bytes));
   EvictionBuffer* const eviction = request.evicted_bytes > 0 ? &buffer : nullptr;
   MonotonicClock clock;

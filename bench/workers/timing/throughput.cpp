@@ -132,8 +132,8 @@ Timed clock_steps(contestants::Contestant& contestant, const workload::QueryTrac
   const std::span<std::uint64_t> ticks = buffers.ticks(workload::steps_in(ranges));
   const std::span<std::uint64_t> prepare_ticks = buffers.prepare_ticks(ticks.size());
   // No page fault inside a timed step.
-  std::fill(ticks.begin(), ticks.end(), 0);
-  std::fill(prepare_ticks.begin(), prepare_ticks.end(), 0);
+  std::ranges::fill(ticks, 0);
+  std::ranges::fill(prepare_ticks, 0);
   workload::Checksum checksum;
   std::size_t done = 0;
   const auto start = std::chrono::steady_clock::now();

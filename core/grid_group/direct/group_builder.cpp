@@ -105,13 +105,12 @@ Groups build_groups(const WideBvh& bvh, const GroupOptions& options) {
 Groups rebuild_groups(const WideBvh& bvh, const Groups& before, std::span<const Aabb> moved,
                       const GroupOptions& options) {
   if (before.empty()) return {};
-  if (!options.lazy) {
+  if (!options.lazy)
     return make(bvh, options, [&](std::uint32_t slot, FoundGroup& found) {
       const bool keeps = !changes(bvh, slot, moved);
       if (keeps) found = before.found(slot);
       return keeps;
     });
-  }
   Groups groups = build_groups(bvh, options);
   for (std::uint32_t slot = 0; slot < bvh.parts().triangles.size() && !groups.empty(); ++slot)
     if (!before.is_unbuilt(slot) && !changes(bvh, slot, moved)) groups.put(slot, before.found(slot));

@@ -36,10 +36,9 @@ Prism::Prism(const FaceFrame& face_frame, double growth, double height, double e
 void Prism::set_points(const FaceFrame& face_frame, double growth, double height,
                        const FilterFrame& frame) noexcept {
   const std::array<Vec3, 3> corner = face_frame.grown(growth);
-  for (int i = 0; i <= cuts; ++i) {
+  for (int i = 0; i <= cuts; ++i)
     for (int j = 0; i + j <= cuts; ++j)
       base_[number(i, j)] = corner[0] + (i * (corner[1] - corner[0]) + j * (corner[2] - corner[0])) / cuts;
-  }
   for (std::size_t k = 0; k < point_count; ++k) {
     const Vec3 p = base_[k % points_an_end] + (k < points_an_end ? -height : height) * face_frame.normal;
     plane_error_ = std::max(plane_error_, frame.plane_error(p));

@@ -23,9 +23,8 @@ std::uint64_t max_memberships(std::size_t triangles) {
 /// A bound on the memberships, counted before any memory is taken; stops counting past `limit`.
 std::uint64_t covered_cells(const TriangleMesh& mesh, const UniformCells& cells, std::uint64_t limit) {
   std::uint64_t covered = 0;
-  for (std::uint32_t i = 0; i < mesh.size() && covered <= limit; ++i) {
+  for (std::uint32_t i = 0; i < mesh.size() && covered <= limit; ++i)
     covered += cells.covered_by_box_of(mesh, i);
-  }
   return covered;
 }
 

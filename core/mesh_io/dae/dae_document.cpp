@@ -165,9 +165,8 @@ const std::vector<xml_node>& DaeDocument::all_of(const std::string& kind) const 
 
 std::string_view DaeDocument::attribute(const xml_node& element, const char* name) const {
   const pugi::xml_attribute found = element.attribute(name);
-  for (pugi::xml_attribute other = found.next_attribute(); other; other = other.next_attribute()) {
+  for (pugi::xml_attribute other = found.next_attribute(); other; other = other.next_attribute())
     if (std::string_view(other.name()) == name) fail(element, "has two attributes ", name);
-  }
   return found.value();
 }
 

@@ -26,10 +26,9 @@ std::vector<std::size_t> places_of_coordinates(const DaeDocument& document, cons
     names += name;
     ++params;
   }
-  if (places.size() != 3 || (names != "XYZ" && names != "xyz")) {
+  if (places.size() != 3 || (names != "XYZ" && names != "xyz"))
     document.fail(accessor, "its named params are ", mesh_io::quoted(names),
                   "; a position has X, Y and Z, in this order");
-  }
   const std::size_t stride = document.count_or(accessor, "stride", 1);
   if (params > stride) document.fail(accessor, "has ", params, " params, but its stride is ", stride);
   return places;
@@ -39,18 +38,16 @@ std::vector<std::size_t> places_of_coordinates(const DaeDocument& document, cons
 std::vector<Vec3> positions(const DaeDocument& document, const xml_node& accessor) {
   const xml_node array = document.target(accessor, "source", {"float_array", "int_array"});
   const std::vector<double> numbers = document.numbers(array);
-  if (const std::size_t stated = document.count(array, "count"); stated != numbers.size()) {
+  if (const std::size_t stated = document.count(array, "count"); stated != numbers.size())
     document.fail(array, "has ", numbers.size(), " numbers, but its count is ", stated);
-  }
   const std::vector<std::size_t> places = places_of_coordinates(document, accessor);
   const std::size_t count = document.count(accessor, "count"),
                     offset = document.count_or(accessor, "offset", 0),
                     stride = document.count_or(accessor, "stride", 1), width = places.back() + 1;
   const bool first_fits = offset <= numbers.size() && width <= numbers.size() - offset;
-  if (count > 0 && !(first_fits && count - 1 <= (numbers.size() - offset - width) / stride)) {
+  if (count > 0 && !(first_fits && count - 1 <= (numbers.size() - offset - width) / stride))
     document.fail(accessor, "count ", count, ", stride ", stride, " and offset ", offset,
                   " reach beyond the ", numbers.size(), " numbers of its array");
-  }
   std::vector<Vec3> positions(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double* tuple = numbers.data() + offset + i * stride;
@@ -105,9 +102,8 @@ class PartReader {
   }
 
   void expect_count(const xml_node& primitive, std::size_t found, const char* what) const {
-    if (const std::size_t stated = document_.count(primitive, "count"); stated != found) {
+    if (const std::size_t stated = document_.count(primitive, "count"); stated != found)
       document_.fail(primitive, "has ", found, " ", what, ", but its count is ", stated);
-    }
   }
 
   xml_node input(const xml_node& element, std::string_view semantic) const {
@@ -153,16 +149,14 @@ class PartReader {
     for (; !cursor.at_end(); ++numbers) {
       const std::int64_t number = cursor.integer(words.what);
       const bool is_vertex = numbers % layout.width == layout.vertex;
-      if (number < 0 || (is_vertex && static_cast<std::uint64_t>(number) >= part_.vertices.size())) {
+      if (number < 0 || (is_vertex && static_cast<std::uint64_t>(number) >= part_.vertices.size()))
         cursor.fail(text_of(words.what, " of corner ", numbers / layout.width, " names ",
                             is_vertex ? "vertex " : "value ", number, " of ",
                             is_vertex ? std::to_string(part_.vertices.size()) : "another input"));
-      }
       if (is_vertex) corners.push_back(static_cast<std::uint32_t>(number));
     }
-    if (numbers % layout.width != 0) {
+    if (numbers % layout.width != 0)
       document_.fail(p, "has ", numbers, " numbers, which ", layout.width, " a corner do not divide");
-    }
     return corners;
   }
 
@@ -180,17 +174,15 @@ class PartReader {
       const DaeDocument::Words words = document_.words(vcount);
       for (TextCursor cursor = words.cursor(); !cursor.at_end(); ++polygons) {
         const std::int64_t size = cursor.integer(words.what);
-        if (size < 3 || static_cast<std::uint64_t>(size) > corners.size() - begin) {
+        if (size < 3 || static_cast<std::uint64_t>(size) > corners.size() - begin)
           cursor.fail(text_of(words.what, " of polygon ", polygons, ": ", size,
                               " corners; it takes at least 3, and ", corners.size() - begin, " are left"));
-        }
         add_face(primitive, std::span(corners).subspan(begin, static_cast<std::size_t>(size)));
         begin += static_cast<std::size_t>(size);
       }
     }
-    if (begin != corners.size()) {
+    if (begin != corners.size())
       document_.fail(primitive, "has ", corners.size(), " corners, but its vcount names ", begin);
-    }
     expect_count(primitive, polygons, "polygons");
   }
 
@@ -220,9 +212,8 @@ class PartReader {
 }  // namespace
 
 SceneGraph::Part dae_part(const DaeDocument& document, const xml_node& geometry) {
-  for (const char* curved : {"spline", "brep"}) {
+  for (const char* curved : {"spline", "brep"})
     if (geometry.child(curved)) document.fail(geometry.child(curved), "is not read; export it as triangles");
-  }
   xml_node mesh = document.only_child(geometry, "mesh");
   if (!mesh) mesh = document.only_child(geometry, "convex_mesh");
   if (!mesh) document.fail(geometry, "has no <mesh>");

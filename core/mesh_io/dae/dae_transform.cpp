@@ -101,9 +101,8 @@ std::optional<Matrix4> dae_transform(const DaeDocument& document, const pugi::xm
   for (const Kind& kind : kinds) {
     if (kind.name != element.name()) continue;
     const std::vector<double> numbers = document.numbers(element);
-    if (numbers.size() != kind.size) {
+    if (numbers.size() != kind.size)
       document.fail(element, "has ", numbers.size(), " numbers; it takes ", kind.size);
-    }
     const Matrix4 matrix = kind.matrix(numbers.data());
     if (!matrix.allFinite()) document.fail(element, kind.fault);
     return matrix;

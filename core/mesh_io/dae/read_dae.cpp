@@ -37,9 +37,8 @@ class SceneReader {
     const xml_node scene = shown_scene();
     Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
     transform.topLeftCorner<3, 3>() *= graph_.unit;
-    for (const xml_node& child : scene.children()) {
+    for (const xml_node& child : scene.children())
       if (child.type() == pugi::node_element) expect_known(child, in_scene);
-    }
     add_children(scene, transform);
     if (!has_faces_) document_.fail(scene, "shows no triangles");
     return std::move(graph_);

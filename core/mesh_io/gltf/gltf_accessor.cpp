@@ -83,19 +83,16 @@ GltfAccessor::Numbers GltfAccessor::numbers_of(const GltfDocument& document, con
   const GltfDocument::View view = document.view(holder.at("bufferView"));
   const std::size_t offset = holder.whole("byteOffset", 0), element = components * size_of(type);
   const std::size_t stride = view.stride.value_or(element);
-  if (stride < element || (use == Use::indices && stride != element)) {
+  if (stride < element || (use == Use::indices && stride != element))
     holder.fail("its elements have " + std::to_string(element) + " bytes, its view a byteStride of " +
                 std::to_string(stride));
-  }
-  if (offset % size_of(type) != 0 || (view.offset + offset) % size_of(type) != 0) {
+  if (offset % size_of(type) != 0 || (view.offset + offset) % size_of(type) != 0)
     holder.fail("starts at byte " + std::to_string(view.offset + offset) +
                 " of its buffer, no multiple of the " + std::to_string(size_of(type)) + " bytes of a number");
-  }
   if (offset > view.bytes.size() || element > view.bytes.size() - offset ||
-      count - 1 > (view.bytes.size() - offset - element) / stride) {
+      count - 1 > (view.bytes.size() - offset - element) / stride)
     holder.fail(std::to_string(count) + " elements of " + std::to_string(stride) + " bytes from byte " +
                 std::to_string(offset) + " on do not fit its view of " + std::to_string(view.bytes.size()));
-  }
   return {view.bytes.substr(offset), stride, type};
 }
 

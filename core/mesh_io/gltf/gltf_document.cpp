@@ -163,10 +163,9 @@ GltfDocument::View GltfDocument::view(const JsonValue& index) const {
   const JsonValue number = view.at("buffer");
   const std::string_view bytes = buffer(number.whole(), named_by(number, "buffers"));
   const std::size_t offset = view.whole("byteOffset", 0), length = view.at("byteLength").whole();
-  if (length == 0 || offset > bytes.size() || length > bytes.size() - offset) {
+  if (length == 0 || offset > bytes.size() || length > bytes.size() - offset)
     view.fail("covers " + std::to_string(length) + " bytes from byte " + std::to_string(offset) +
               " on, its buffer has " + std::to_string(bytes.size()));
-  }
   std::optional<std::size_t> stride;
   if (const std::optional<JsonValue> stated = view.find("byteStride")) {
     stride = stated->whole();

@@ -29,9 +29,8 @@ DracoMesh decode_draco(std::string_view bytes, std::uint32_t positions) {
     result.vertices.emplace_back(position[0], position[1], position[2]);
   }
   result.corners.reserve(3 * std::size_t{mesh.num_faces()});
-  for (draco::FaceIndex i(0); i < mesh.num_faces(); ++i) {
+  for (draco::FaceIndex i(0); i < mesh.num_faces(); ++i)
     for (const draco::PointIndex& corner : mesh.face(i)) result.corners.push_back(corner.value());
-  }
   return result;
 }
 

@@ -78,9 +78,8 @@ JsonValue JsonValue::at(const char* key) const {
 }
 
 bool JsonValue::lists(std::string_view text) const {
-  for (std::size_t i = 0; i < size(); ++i) {
+  for (std::size_t i = 0; i < size(); ++i)
     if ((*this)[i].text() == text) return true;
-  }
   return false;
 }
 

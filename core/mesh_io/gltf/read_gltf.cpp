@@ -115,10 +115,9 @@ class Nodes {
   void add_child(const GltfDocument& document, std::size_t parent, const JsonValue& index) {
     document.named_by(index, "nodes");
     const std::size_t child = index.whole();
-    if (has_parent(child)) {
+    if (has_parent(child))
       index.fail("nodes[" + std::to_string(child) + "] is also a child of nodes[" +
                  std::to_string(parents_[child]) + "]");
-    }
     parents_[child] = parent;
     children_[parent].push_back(child);
   }
@@ -127,9 +126,8 @@ class Nodes {
   void refuse_cycles() const {
     std::vector<bool> reached(size());
     std::vector<std::size_t> open;
-    for (std::size_t i = 0; i < size(); ++i) {
+    for (std::size_t i = 0; i < size(); ++i)
       if (!has_parent(i)) open.push_back(i);
-    }
     while (!open.empty()) {
       const std::size_t node = open.back();
       open.pop_back();
@@ -182,9 +180,8 @@ class GltfReader {
     const std::optional<JsonValue> stated = document_.root().find("scene"),
                                    scenes = document_.root().find("scenes");
     if (!stated && (!scenes || scenes->size() == 0)) {
-      for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      for (std::size_t i = 0; i < nodes_.size(); ++i)
         if (!nodes_.has_parent(i)) roots.push_back(i);
-      }
       return roots;
     }
     const JsonValue scene = stated ? document_.named_by(*stated, "scenes") : (*scenes)[0];

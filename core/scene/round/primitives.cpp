@@ -31,10 +31,9 @@ TriangleMesh box_mesh(const Vec3& size) {
   for (const double length : {size.x(), size.y(), size.z()}) expect_primitive_size("box", "size", length);
   const Vec3 half = 0.5 * size;
   std::vector<Vec3> vertices;
-  for (std::uint32_t i = 0; i < 8; ++i) {
+  for (std::uint32_t i = 0; i < 8; ++i)
     vertices.emplace_back((i & 1) != 0 ? half.x() : -half.x(), (i & 2) != 0 ? half.y() : -half.y(),
                           (i & 4) != 0 ? half.z() : -half.z());
-  }
   constexpr std::uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                          {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   std::vector<Corners> triangles;

@@ -12,10 +12,9 @@
 namespace touchmark {
 
 unsigned threads_to_use(unsigned asked, const char* who) {
-  if (asked > max_threads) {
+  if (asked > max_threads)
     throw std::invalid_argument(std::string(who) + ": threads is " + std::to_string(asked) + ", more than " +
                                 std::to_string(max_threads));
-  }
   if (asked > 0) return asked;
   return std::clamp(std::thread::hardware_concurrency(), 1U, max_threads);
 }

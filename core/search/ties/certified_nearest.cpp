@@ -53,9 +53,7 @@ std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangle
                                       Work& work) noexcept {
   if (!center.allFinite() || !(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds, center);
-  if (std::isinf(error)) {
-    return nearest_at_any_scale(triangles, bounds, center, reach, ids, work);
-  }
+  if (std::isinf(error)) return nearest_at_any_scale(triangles, bounds, center, reach, ids, work);
   work.triangles += triangles.size();
   ClosestCandidates candidates(triangles.data(), center, error);
   for (std::size_t i = 0; i < triangles.size(); ++i)

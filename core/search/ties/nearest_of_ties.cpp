@@ -40,9 +40,7 @@ TiedTriangle::TiedTriangle(const PreparedTriangle& triangle, const Vec3& center)
     : triangle_(&triangle), feature_(feature_of(triangle, center)) {}
 
 const SquaredDistance& TiedTriangle::squared(const Vec3& center) noexcept {
-  if (!squared_) {
-    squared_ = feature_ ? squared_distance(*feature_, center) : SquaredDistance{{}, infinity};
-  }
+  if (!squared_) squared_ = feature_ ? squared_distance(*feature_, center) : SquaredDistance{{}, infinity};
   return *squared_;
 }
 

@@ -141,12 +141,11 @@ class Run {
   int finish(const papers::ChoiSungResult& result) const {
     fmt::print("{}\n",
                papers::summary(papers::choi_sung_claims(result, papers::is_choi_sungs_bunny(mesh_.mesh))));
-    if (!papers::is_choi_sungs_bunny(mesh_.mesh)) {
+    if (!papers::is_choi_sungs_bunny(mesh_.mesh))
       fmt::print(
           "These counts are of {}, not of the paper's mesh: docs/papers.md says where that comes from and "
           "where to put it.\n",
           mesh_.name);
-    }
     if (result.answers_agree) return support::exit_done;
     fmt::print(stderr, "touchmark: the exact forms answer differently on some surface (table1.csv)\n");
     return support::exit_check_failed;

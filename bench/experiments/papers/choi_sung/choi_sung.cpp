@@ -74,10 +74,9 @@ class Experiment {
   ChoiSungResult run() {
     try {
       measure_surface("original", 0, original_);
-      for (const SubdivisionMethod method : choi_sung_methods) {
+      for (const SubdivisionMethod method : choi_sung_methods)
         for (int level = 1; level <= settings_.levels; ++level)
           measure_surface(name_of(method), level, choi_sung_surface(original_, method, level));
-      }
       if (settings_.timed)
         timing_.run(settings_.effort, [this](std::size_t round, std::size_t) {
           print_progress_(fmt::format("timing, round {} of {}", round + 1, settings_.effort.rounds));
@@ -153,17 +152,15 @@ class Experiment {
   std::size_t contacts_of_original_path(const TriangleMesh& mesh) const {
     const SphereCluster tree = SphereCluster::build(mesh);
     SphereCluster::Session session;
-    return static_cast<std::size_t>(
-        std::count_if(original_path_.begin(), original_path_.end(), [&](const workload::Step& step) {
-          return tree.nearest(step.probe, step.reach, session).has_value();
-        }));
+    return static_cast<std::size_t>(std::ranges::count_if(original_path_, [&](const workload::Step& step) {
+      return tree.nearest(step.probe, step.reach, session).has_value();
+    }));
   }
 
   void check_answers(const Numbers& numbers) {
     const std::uint64_t expected = timing_.timed(numbers.scan).answers;
-    for (const auto& other : {numbers.tree, numbers.grid}) {
+    for (const auto& other : {numbers.tree, numbers.grid})
       if (other && timing_.timed(*other).answers != expected) result_.answers_agree = false;
-    }
   }
 
   void fill_times(ChoiSungRow& row, const Numbers& numbers) const {
@@ -202,7 +199,7 @@ ChoiSungResult run_choi_sung(const TriangleMesh& original, const ChoiSungSetting
 
 const ChoiSungRow* find_row(const ChoiSungResult& result, SubdivisionMethod method, int level,
                             bool clustered) {
-  const auto found = std::find_if(result.rows.begin(), result.rows.end(), [&](const ChoiSungRow& row) {
+  const auto found = std::ranges::find_if(result.rows, [&](const ChoiSungRow& row) {
     return row.surface.level == level && (row.clustering > 0) == clustered &&
            (level == 0 || row.surface.method == name_of(method));
   });

@@ -15,21 +15,20 @@ namespace touchmark::bench::experiments::papers {
 namespace printed = choi_sung_printed;
 
 bool ChoiSungClaimList::complete() const {
-  return std::all_of(choi_sung_methods.begin(), choi_sung_methods.end(),
-                     [this](auto m) { return find(m, 3, true) != nullptr; });
+  return std::ranges::all_of(choi_sung_methods, [this](auto m) { return find(m, 3, true) != nullptr; });
 }
 
 bool ChoiSungClaimList::is_timed() const {
-  return result_.finished && std::all_of(result_.rows.begin(), result_.rows.end(),
-                                         [](const ChoiSungRow& row) { return row.scan && row.scan->ns > 0; });
+  return result_.finished && std::ranges::all_of(result_.rows, [](const ChoiSungRow& row) {
+           return row.scan && row.scan->ns > 0;
+         });
 }
 
 std::vector<SubdivisionMethod> ChoiSungClaimList::sorted(int level, bool clustered,
                                                          const RowValue& of) const {
   std::vector<SubdivisionMethod> order(choi_sung_methods.begin(), choi_sung_methods.end());
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
-    return value(a, level, clustered, of) < value(b, level, clustered, of);
-  });
+  std::ranges::stable_sort(
+      order, [&](auto a, auto b) { return value(a, level, clustered, of) < value(b, level, clustered, of); });
   return order;
 }
 
@@ -78,8 +77,8 @@ constexpr double close_call = 0.5;
 void add_score_claims(ChoiSungClaimList& list) {
   std::vector<MethodScores> scores = choi_sung_scores(list.result());
   if (scores.empty()) return;
-  const auto looks = std::max_element(
-      scores.begin(), scores.end(), [](const auto& a, const auto& b) { return a.appearance < b.appearance; });
+  const auto looks = std::ranges::max_element(
+      scores, [](const auto& a, const auto& b) { return a.appearance < b.appearance; });
   std::string found;
   for (const MethodScores& s : scores)
     found += fmt::format("{}{} {:.2f}", found.empty() ? "" : ", ", name_of(s.method), s.appearance);
@@ -87,8 +86,7 @@ void add_score_claims(ChoiSungClaimList& list) {
            looks->method == SubdivisionMethod::ls3, found,
            "creases alone would favour the method that shrinks most; half of the score is the distance to "
            "the original");
-  std::stable_sort(scores.begin(), scores.end(),
-                   [](const auto& a, const auto& b) { return a.total() > b.total(); });
+  std::ranges::stable_sort(scores, [](const auto& a, const auto& b) { return a.total() > b.total(); });
   const MethodScores &first = scores[0], &second = scores[1];
   Claim claim = statement_claim(
       "Table 2", "LS3 has the highest total score", first.method == SubdivisionMethod::ls3,
@@ -116,9 +114,8 @@ void add_model_claims(ChoiSungClaimList& list) {
     std::size_t alike = 0;
     for (; end < models.size() && models[end].model == models[begin].model; ++end) {
       const ModelVerdict& m = models[end];
-      const auto at_bunny = std::find_if(ours.begin(), ours.end(), [&](const Claim& claim) {
-        return claim.where == m.where && claim.what == m.what;
-      });
+      const auto at_bunny = std::ranges::find_if(
+          ours, [&](const Claim& claim) { return claim.where == m.where && claim.what == m.what; });
       const bool agrees = at_bunny != ours.end() && (at_bunny->agreement == Agreement::yes) == m.holds;
       alike += agrees ? 1 : 0;
     }

@@ -106,11 +106,10 @@ void add_models(std::span<const Model> models, const ChoiSungSettings& settings,
 }
 
 void add_distances(const FrontierResult& frontier, ChoiSungResult& result) {
-  for (const FrontierPoint& point : frontier.points) {
+  for (const FrontierPoint& point : frontier.points)
     if (point.form == "scan")
       result.distances.push_back({"paper", point.method, point.level, point.clustering, point.spheres,
                                   point.tests_per_query, point.ns, point.error.mean});
-  }
 }
 
 }  // namespace touchmark::bench::experiments::papers

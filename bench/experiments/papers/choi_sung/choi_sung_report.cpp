@@ -76,9 +76,8 @@ std::string fast_forms_verdict(const ChoiSungResult& result) {
   const ChoiSungRow* single = find_row(result, SubdivisionMethod::ls3, 3, false);
   const ChoiSungRow* clustered = find_row(result, SubdivisionMethod::ls3, 3, true);
   if (single == nullptr || clustered == nullptr || !single->tree || !single->grid || single->tree->ns <= 0 ||
-      single->grid->ns <= 0) {
+      single->grid->ns <= 0)
     return "";
-  }
   const double tree = single->scan->ns / single->tree->ns, grid = single->scan->ns / single->grid->ns;
   std::string text = fmt::format(
       "On LS3 level 3 ({} triangles) the exact tree answers {:.0f} times and the exact grid {:.0f} times as "
@@ -87,13 +86,12 @@ std::string fast_forms_verdict(const ChoiSungResult& result) {
       single->surface.triangles, tree, grid, clustered->scan->ns / single->tree->ns,
       clustered->scan->ns / single->grid->ns);
   const ChoiSungRow* original = find_row(result, SubdivisionMethod::ls3, 0, false);
-  if (original != nullptr && original->tree && original->grid && original->tree->ns > 0) {
+  if (original != nullptr && original->tree && original->grid && original->tree->ns > 0)
     text += fmt::format(
         " From level 0 to level 3 a query of the scan comes to take {:.3g} times as long, of the tree {:.3g} "
         "times and of the grid {:.3g} times.",
         single->scan->ns / original->scan->ns, single->tree->ns / original->tree->ns,
         single->grid->ns / original->grid->ns);
-  }
   return text + "\n";
 }
 
@@ -106,8 +104,8 @@ std::string frontier_section(const PaperMesh& mesh, const FrontierResult& fronti
     FrontierResult chosen = frontier;
     mark_best(chosen.points, among);
     std::erase_if(chosen.points, [](const FrontierPoint& point) { return !point.best; });
-    std::sort(chosen.points.begin(), chosen.points.end(),
-              [](const FrontierPoint& a, const FrontierPoint& b) { return a.ns < b.ns; });
+    std::ranges::sort(chosen.points,
+                      [](const FrontierPoint& a, const FrontierPoint& b) { return a.ns < b.ns; });
     return frontier_table(chosen, mesh.mesh.diagonal()).markdown();
   };
   std::string text = fmt::format(

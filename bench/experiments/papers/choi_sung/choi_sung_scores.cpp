@@ -39,7 +39,7 @@ std::vector<double> badness(const ChoiSungResult& result, bool both, const Value
 }  // namespace
 
 std::vector<double> scores_of(const std::vector<double>& badness) {
-  const auto [least, greatest] = std::minmax_element(badness.begin(), badness.end());
+  const auto [least, greatest] = std::ranges::minmax_element(badness);
   std::vector<double> scores;
   scores.reserve(badness.size());
   for (const double value : badness)

@@ -29,6 +29,28 @@ std::string reduction(double without, double with) {
   return without > 0 && with > 0 ? fmt::format("{:.1f}", 100 * (1 - with / without)) : "";
 }
 
+/// A column of the short table: its text, and whether less is better.
+struct ShortColumn {
+  std::string name;
+  std::function<double(const ChoiSungRow& single, const ChoiSungRow& clustered)> value;
+  bool less_is_better;
+};
+
+std::vector<ShortColumn> short_columns() {
+  using Row = ChoiSungRow;
+  const auto us = [](const Row& row) { return ns_of(row.scan) * 1e-3; };
+  const auto rate = [](const Row& row) { return row.scan && row.scan->ns > 0 ? 1e9 / row.scan->ns : 0; };
+  return {
+      {"triangles", [](const Row& a, const Row&) { return static_cast<double>(a.surface.triangles); }, true},
+      {"mean area", [](const Row& a, const Row&) { return a.surface.mean_area; }, true},
+      {"spheres", [](const Row& a, const Row&) { return static_cast<double>(a.spheres); }, true},
+      {"clustered", [](const Row&, const Row& b) { return static_cast<double>(b.spheres); }, true},
+      {"us", [us](const Row& a, const Row&) { return us(a); }, true},
+      {"us, clustered", [us](const Row&, const Row& b) { return us(b); }, true},
+      {"Hz", [rate](const Row& a, const Row&) { return rate(a); }, false},
+      {"Hz, clustered", [rate](const Row&, const Row& b) { return rate(b); }, false}};
+}
+
 }  // namespace
 
 support::Table choi_sung_table1(const ChoiSungResult& result) {
@@ -77,32 +99,6 @@ support::Table choi_sung_table1(const ChoiSungResult& result) {
   return results::table_of(columns, result.rows);
 }
 
-namespace {
-
-/// A column of the short table: its text, and whether less is better.
-struct ShortColumn {
-  std::string name;
-  std::function<double(const ChoiSungRow& single, const ChoiSungRow& clustered)> value;
-  bool less_is_better;
-};
-
-std::vector<ShortColumn> short_columns() {
-  using Row = ChoiSungRow;
-  const auto us = [](const Row& row) { return ns_of(row.scan) * 1e-3; };
-  const auto rate = [](const Row& row) { return row.scan && row.scan->ns > 0 ? 1e9 / row.scan->ns : 0; };
-  return {
-      {"triangles", [](const Row& a, const Row&) { return static_cast<double>(a.surface.triangles); }, true},
-      {"mean area", [](const Row& a, const Row&) { return a.surface.mean_area; }, true},
-      {"spheres", [](const Row& a, const Row&) { return static_cast<double>(a.spheres); }, true},
-      {"clustered", [](const Row&, const Row& b) { return static_cast<double>(b.spheres); }, true},
-      {"us", [us](const Row& a, const Row&) { return us(a); }, true},
-      {"us, clustered", [us](const Row&, const Row& b) { return us(b); }, true},
-      {"Hz", [rate](const Row& a, const Row&) { return rate(a); }, false},
-      {"Hz, clustered", [rate](const Row&, const Row& b) { return rate(b); }, false}};
-}
-
-}  // namespace
-
 support::Table choi_sung_table1_short(const ChoiSungResult& result) {
   const std::vector<ShortColumn> columns = short_columns();
   std::vector<std::string> header{"method", "level"};
@@ -134,19 +130,17 @@ support::Table choi_sung_table1_short(const ChoiSungResult& result) {
 support::Table choi_sung_distances(const ChoiSungResult& result) {
   support::Table table(
       {"mesh", "method", "level", "clustering", "spheres", "tests_per_query", "detection_ms", "mean_error"});
-  for (const DistanceRow& row : result.distances) {
+  for (const DistanceRow& row : result.distances)
     table.add({row.mesh, row.method, std::to_string(row.level), number(row.clustering),
                std::to_string(row.spheres), fmt::format("{:.1f}", row.tests_per_query),
                row.ns ? milliseconds(*row.ns) : "", row.mean_error ? number(*row.mean_error) : ""});
-  }
   return table;
 }
 
 support::Table choi_sung_models(const ChoiSungResult& result) {
   support::Table table({"model", "triangles", "where", "what", "holds", "reproduced"});
-  for (const ModelVerdict& m : result.models) {
+  for (const ModelVerdict& m : result.models)
     table.add({m.model, std::to_string(m.triangles), m.where, m.what, m.holds ? "yes" : "no", m.reproduced});
-  }
   return table;
 }
 
@@ -154,10 +148,9 @@ support::Table choi_sung_table2(const ChoiSungResult& result) {
   support::Table table({"method", "appearance", "volume_equality", "tightness", "detection_time",
                         "update_rate", "total", "creases", "closeness"});
   const auto score = [](double value) { return fmt::format("{:.2f}", value); };
-  for (const MethodScores& s : choi_sung_scores(result)) {
+  for (const MethodScores& s : choi_sung_scores(result))
     table.add({std::string(name_of(s.method)), score(s.appearance), score(s.volume), score(s.tightness),
                score(s.detection), score(s.update), score(s.total()), score(s.creases), score(s.closeness)});
-  }
   return table;
 }
 

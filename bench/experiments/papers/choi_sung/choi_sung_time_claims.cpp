@@ -170,9 +170,8 @@ void add_time_statements(ChoiSungClaimList& list) {
            growth(true) < growth(false),
            fmt::format("{:.1f} times with, {:.1f} times without", growth(true), growth(false)));
   const std::vector<ChoiSungRow>& rows = list.result().rows;
-  const auto below = std::count_if(rows.begin(), rows.end(), [](const ChoiSungRow& row) {
-    return row.surface.level > 0 && row.scan->ns > 1e6;
-  });
+  const auto below = std::ranges::count_if(
+      rows, [](const ChoiSungRow& row) { return row.surface.level > 0 && row.scan->ns > 1e6; });
   Claim claim{"Fig. 11",
               "no subdivided surface is served at 1000 Hz",
               "holds",
@@ -180,13 +179,12 @@ void add_time_statements(ChoiSungClaimList& list) {
               Agreement::not_comparable,
               list.why(fixed_parts())};
   list.add(std::move(claim));
-  list.add(
-      "Fig. 11", "subdivision should not be applied if the rate is to be kept", below > 0,
-      fmt::format("the slowest surface is searched {:.0f} times a second",
-                  1e9 / std::max_element(rows.begin(), rows.end(),
-                                         [](const auto& a, const auto& b) { return a.scan->ns < b.scan->ns; })
-                            ->scan->ns),
-      "it follows from times that hold more than the search");
+  list.add("Fig. 11", "subdivision should not be applied if the rate is to be kept", below > 0,
+           fmt::format("the slowest surface is searched {:.0f} times a second",
+                       1e9 / std::ranges::max_element(
+                                 rows, [](const auto& a, const auto& b) { return a.scan->ns < b.scan->ns; })
+                                 ->scan->ns),
+           "it follows from times that hold more than the search");
 }
 
 }  // namespace touchmark::bench::experiments::papers

@@ -179,8 +179,7 @@ class Experiment {
     for (const Pass& pass : passes) {
       p99.push_back(measurement::summarize_latency(pass.ns, {{0, pass.ns.size()}}).p99);
       const double period = row.wanted_hz > 0 ? 1e9 / row.wanted_hz : 0;
-      const auto held =
-          std::count_if(pass.ns.begin(), pass.ns.end(), [&](double ns) { return ns <= period; });
+      const auto held = std::ranges::count_if(pass.ns, [&](double ns) { return ns <= period; });
       in_time.push_back(static_cast<double>(held) / static_cast<double>(pass.ns.size()));
       switches.push_back(static_cast<double>(pass.switches));
       const double rounds = static_cast<double>(passes.size());

@@ -14,31 +14,11 @@ constexpr double held_part = 0.99;
 /// The least error of the rows of this form that hold the rate.
 const ContactLevelRow* best_at(const ContactLevelResult& result, const char* form, double hz) {
   const ContactLevelRow* best = nullptr;
-  for (const ContactLevelRow& row : result.rows) {
+  for (const ContactLevelRow& row : result.rows)
     if (row.form == form && row.rate_hz >= hz && (best == nullptr || row.mean_error < best->mean_error))
       best = &row;
-  }
   return best;
 }
-
-}  // namespace
-
-support::Table contact_levels_table(const ContactLevelResult& result, double diagonal) {
-  support::Table table({"form", "level", "wanted_hz", "rate_hz", "in_time_percent", "mean_error",
-                        "mean_error_percent", "max_error", "switches", "finest_percent"});
-  const auto number = [](double value) { return fmt::format("{:.6g}", value); };
-  for (const ContactLevelRow& row : result.rows) {
-    const bool switched = row.form == "switched";
-    const auto of_switched = [&](double value) { return switched ? number(value) : ""; };
-    table.add({row.form, row.level, of_switched(row.wanted_hz), number(row.rate_hz),
-               of_switched(100 * row.in_time), number(row.mean_error),
-               number(diagonal > 0 ? 100 * row.mean_error / diagonal : 0), number(row.max_error),
-               of_switched(static_cast<double>(row.switches)), of_switched(100 * row.finest)});
-  }
-  return table;
-}
-
-namespace {
 
 /// Wanted rates at which the session was set beside the best level that alone holds them.
 struct Comparison {
@@ -64,6 +44,21 @@ Comparison compared(const ContactLevelResult& result) {
 }
 
 }  // namespace
+
+support::Table contact_levels_table(const ContactLevelResult& result, double diagonal) {
+  support::Table table({"form", "level", "wanted_hz", "rate_hz", "in_time_percent", "mean_error",
+                        "mean_error_percent", "max_error", "switches", "finest_percent"});
+  const auto number = [](double value) { return fmt::format("{:.6g}", value); };
+  for (const ContactLevelRow& row : result.rows) {
+    const bool switched = row.form == "switched";
+    const auto of_switched = [&](double value) { return switched ? number(value) : ""; };
+    table.add({row.form, row.level, of_switched(row.wanted_hz), number(row.rate_hz),
+               of_switched(100 * row.in_time), number(row.mean_error),
+               number(diagonal > 0 ? 100 * row.mean_error / diagonal : 0), number(row.max_error),
+               of_switched(static_cast<double>(row.switches)), of_switched(100 * row.finest)});
+  }
+  return table;
+}
 
 std::string contact_levels_verdict(const ContactLevelResult& result, double diagonal) {
   if (!result.finished || !(diagonal > 0)) return "";

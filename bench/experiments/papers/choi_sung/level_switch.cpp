@@ -8,7 +8,7 @@ namespace touchmark::bench::experiments::papers {
 
 LevelSwitch::LevelSwitch(std::vector<double> expected_ns, double period_ns)
     : expected_ns_(std::move(expected_ns)), period_ns_(period_ns) {
-  assert(!expected_ns_.empty() && std::is_sorted(expected_ns_.begin(), expected_ns_.end()));
+  assert(!expected_ns_.empty() && std::ranges::is_sorted(expected_ns_));
 }
 
 /// The second largest of the recent ratios.

@@ -51,8 +51,7 @@ std::vector<Vec3> sharpest_first(const TriangleMesh& mesh) {
   });
   std::vector<std::size_t> order(welded.nodes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return sharpest[a] > sharpest[b]; });
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return sharpest[a] > sharpest[b]; });
   std::vector<Vec3> nodes;
   for (const std::size_t i : order) nodes.push_back(welded.nodes[i]);
   return nodes;
@@ -68,7 +67,7 @@ std::array<double, 3> edges_of(const TriangleMesh& mesh, std::size_t triangle) {
   for (int k = 0; k < 3; ++k)
     edges[static_cast<std::size_t>(k)] =
         (mesh.corner(triangle, (k + 1) % 3) - mesh.corner(triangle, k)).norm();
-  std::sort(edges.begin(), edges.end());
+  std::ranges::sort(edges);
   return edges;
 }
 

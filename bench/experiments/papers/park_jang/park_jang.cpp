@@ -110,7 +110,7 @@ class MeshExperiment {
     return rows;
   }
   bool answers_agree() const {
-    return std::all_of(rows_.begin(), rows_.end(), [this](const ParkJangRow& row) {
+    return std::ranges::all_of(rows_, [this](const ParkJangRow& row) {
       return row.counted.answers == rows_.front().counted.answers;
     });
   }
@@ -160,7 +160,7 @@ class MeshExperiment {
 double place_quantile(const CountedTests& counted, double part) {
   if (counted.by_place.empty()) return counted.mean;
   std::vector<double> sorted = counted.by_place;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   return sorted[static_cast<std::size_t>(std::lround(part * static_cast<double>(sorted.size() - 1)))];
 }
 
@@ -168,9 +168,8 @@ std::vector<std::size_t> park_jang_group_counts(std::size_t most) {
   std::vector<std::size_t> counts;
   for (const std::size_t count :
        {1,   2,   4,   8,   16,  24,  32,   45,   61,   80,   100,  130,  160,   214,   300,
-        379, 460, 550, 650, 783, 950, 1100, 1550, 2115, 3000, 4500, 7000, 12000, 20000, 35000}) {
+        379, 460, 550, 650, 783, 950, 1100, 1550, 2115, 3000, 4500, 7000, 12000, 20000, 35000})
     if (count <= most) counts.push_back(count);
-  }
   return counts;
 }
 

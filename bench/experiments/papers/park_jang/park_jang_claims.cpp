@@ -73,7 +73,7 @@ SpheresOverCubes over_cubes(const ParkJangResult& result, const std::string& sha
 Claim spheres_claim(const ParkJangResult& result, const char* shape, const char* kind) {
   const SpheresOverCubes ratios = over_cubes(result, shape);
   const auto more = [](const std::vector<double>& all) {
-    return 4 * std::count_if(all.begin(), all.end(), [](double r) { return r > 1; }) >=
+    return 4 * std::ranges::count_if(all, [](double r) { return r > 1; }) >=
            3 * static_cast<std::ptrdiff_t>(all.size());
   };
   Claim claim{"Fig. 7", fmt::format("spheres ({}) are slower than cuboids", kind), "holds",
@@ -150,7 +150,7 @@ std::vector<Claim> park_jang_claims(const ParkJangResult& result) {
   if (result.pictured_spheres)
     claims.push_back(
         pictured_claim("Fig. 6", "groups of spheres", park_jang_spheres, *result.pictured_spheres));
-  const double least = std::min_element(cubes.begin(), cubes.end(), [](const auto& a, const auto& b) {
+  const double least = std::ranges::min_element(cubes, [](const auto& a, const auto& b) {
                          return a.factor < b.factor;
                        })->factor;
   claims.push_back(

@@ -22,8 +22,8 @@ double groups_at(const ParkJangRow& a, const ParkJangRow& b, double operations) 
 }
 
 std::size_t min_at(const Rows& rows, const std::function<double(const ParkJangRow&)>& value) {
-  const auto least = std::min_element(rows.begin(), rows.end(),
-                                      [&](const auto* a, const auto* b) { return value(*a) < value(*b); });
+  const auto least =
+      std::ranges::min_element(rows, [&](const auto* a, const auto* b) { return value(*a) < value(*b); });
   return static_cast<std::size_t>(least - rows.begin());
 }
 
@@ -35,7 +35,7 @@ void fill_places(const Rows& rows, ParkJangCurve& curve) {
                      return operations_of(row, row.counted.by_place[place]);
                    })]->groups);
   if (best.empty()) return;
-  std::sort(best.begin(), best.end());
+  std::ranges::sort(best);
   curve.best_of_places_from = best[best.size() / 4];
   curve.best_of_places_to = best[best.size() - 1 - best.size() / 4];
 }
@@ -49,14 +49,12 @@ ParkJangCurve curve_of(const Rows& rows, double ungrouped) {
   curve.shape = rows[0]->form;
   curve.best = rows[least]->groups;
   curve.factor = min_operations > 0 ? ungrouped / min_operations : 0;
-  for (std::size_t i = least; i > 0 && !curve.tenth_from && min_operations <= ungrouped / 10; --i) {
+  for (std::size_t i = least; i > 0 && !curve.tenth_from && min_operations <= ungrouped / 10; --i)
     if (mean_operations(*rows[i - 1]) > ungrouped / 10)
       curve.tenth_from = groups_at(*rows[i - 1], *rows[i], ungrouped / 10);
-  }
-  for (std::size_t i = least; i + 1 < rows.size() && !curve.rises_from; ++i) {
+  for (std::size_t i = least; i + 1 < rows.size() && !curve.rises_from; ++i)
     if (mean_operations(*rows[i + 1]) > 1.1 * min_operations)
       curve.rises_from = groups_at(*rows[i], *rows[i + 1], 1.1 * min_operations);
-  }
   fill_places(rows, curve);
   return curve;
 }

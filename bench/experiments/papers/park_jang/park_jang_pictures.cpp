@@ -61,9 +61,8 @@ double gap(const PublishedGridGroup& grid, std::size_t group, const Vec3& point)
 /// The group that the point is deepest in.
 std::size_t active_group(const PublishedGridGroup& grid, const Vec3& point) {
   std::size_t active = 0;
-  for (std::size_t group = 1; group < grid.groups(); ++group) {
+  for (std::size_t group = 1; group < grid.groups(); ++group)
     if (gap(grid, group, point) < gap(grid, active, point)) active = group;
-  }
   return active;
 }
 

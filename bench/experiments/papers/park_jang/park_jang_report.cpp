@@ -10,6 +10,44 @@ namespace {
 
 std::string number(double value) { return fmt::format("{:.6g}", value); }
 
+/// What the numbers say of the paper's idea, for who reads no further.
+std::string in_short(const ParkJangResult& result) {
+  std::string text;
+  for (const ParkJangCurve& curve : park_jang_curves(result)) {
+    if (curve.shape != "cube") continue;
+    const auto groups = [](const std::optional<double>& v) {
+      return v ? fmt::format("{:.0f}", *v) : "none tried";
+    };
+    text += fmt::format(
+        "- {} ({} triangles): a query takes a tenth of the ungrouped one's operations from {} cuboids on, "
+        "fewest with {} ({:.3g} times fewer), a tenth more than that beyond {}. The best count of a single "
+        "place is {} to {} in the middle half of the places.\n",
+        curve.mesh, curve.triangles, groups(curve.tenth_from), curve.best, curve.factor,
+        groups(curve.rises_from), curve.best_of_places_from, curve.best_of_places_to);
+  }
+  return text.empty() ? "" : "\n## In short\n\n" + text;
+}
+
+constexpr const char* not_comparable =
+    "Neither the mesh's size, nor the path, nor the machine is stated, and the HIP there is a point, here a "
+    "ball. The scan of the text leaves much of it illegible: a number is called certain where it stands in "
+    "two places, likely where it stands in one; no sentence on future work could be read.\n";
+
+std::string fast_verdict(const ParkJangResult& result) {
+  std::string text;
+  const std::vector<ParkJangBest> all = park_jang_best(result);
+  for (const ParkJangRow& row : result.rows) {
+    if (row.form != "direct" || !row.timed || row.timed->ns <= 0) continue;
+    for (const ParkJangBest& best : all)
+      if (best.mesh == row.mesh && best.shape == "cube")
+        text += fmt::format(
+            "- {}: {:.0f} times as fast as the published form at its best count, {:.0f} times as fast as the "
+            "ungrouped one.\n",
+            row.mesh, best.ns / row.timed->ns, best.ungrouped_ns / row.timed->ns);
+  }
+  return text;
+}
+
 }  // namespace
 
 support::Table park_jang_times(const ParkJangResult& result) {
@@ -49,9 +87,8 @@ support::Table park_jang_best_table(const ParkJangResult& result) {
                         "factor_by_operations", "tenth_from", "rises_from"});
   const std::vector<ParkJangCurve> curves = park_jang_curves(result);
   for (const ParkJangBest& best : park_jang_best(result)) {
-    const auto found = std::find_if(curves.begin(), curves.end(), [&](const ParkJangCurve& c) {
-      return c.mesh == best.mesh && c.shape == best.shape;
-    });
+    const auto found = std::ranges::find_if(
+        curves, [&](const ParkJangCurve& c) { return c.mesh == best.mesh && c.shape == best.shape; });
     const ParkJangCurve curve = found != curves.end() ? *found : ParkJangCurve();
     const auto whole = [](const std::optional<double>& v) { return v ? fmt::format("{:.0f}", *v) : ""; };
     table.add({best.mesh, std::to_string(best.triangles), best.shape, std::to_string(best.groups),
@@ -63,49 +100,6 @@ support::Table park_jang_best_table(const ParkJangResult& result) {
   }
   return table;
 }
-
-namespace {
-
-/// What the numbers say of the paper's idea, for who reads no further.
-std::string in_short(const ParkJangResult& result) {
-  std::string text;
-  for (const ParkJangCurve& curve : park_jang_curves(result)) {
-    if (curve.shape != "cube") continue;
-    const auto groups = [](const std::optional<double>& v) {
-      return v ? fmt::format("{:.0f}", *v) : "none tried";
-    };
-    text += fmt::format(
-        "- {} ({} triangles): a query takes a tenth of the ungrouped one's operations from {} cuboids on, "
-        "fewest with {} ({:.3g} times fewer), a tenth more than that beyond {}. The best count of a single "
-        "place is {} to {} in the middle half of the places.\n",
-        curve.mesh, curve.triangles, groups(curve.tenth_from), curve.best, curve.factor,
-        groups(curve.rises_from), curve.best_of_places_from, curve.best_of_places_to);
-  }
-  return text.empty() ? "" : "\n## In short\n\n" + text;
-}
-
-constexpr const char* not_comparable =
-    "Neither the mesh's size, nor the path, nor the machine is stated, and the HIP there is a point, here a "
-    "ball. The scan of the text leaves much of it illegible: a number is called certain where it stands in "
-    "two places, likely where it stands in one; no sentence on future work could be read.\n";
-
-std::string fast_verdict(const ParkJangResult& result) {
-  std::string text;
-  const std::vector<ParkJangBest> all = park_jang_best(result);
-  for (const ParkJangRow& row : result.rows) {
-    if (row.form != "direct" || !row.timed || row.timed->ns <= 0) continue;
-    for (const ParkJangBest& best : all) {
-      if (best.mesh == row.mesh && best.shape == "cube")
-        text += fmt::format(
-            "- {}: {:.0f} times as fast as the published form at its best count, {:.0f} times as fast as the "
-            "ungrouped one.\n",
-            row.mesh, best.ns / row.timed->ns, best.ungrouped_ns / row.timed->ns);
-    }
-  }
-  return text;
-}
-
-}  // namespace
 
 std::string park_jang_report(const std::vector<PaperMesh>& meshes, const ParkJangSettings& settings,
                              const ParkJangResult& result) {
