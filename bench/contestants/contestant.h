@@ -15,6 +15,7 @@
 #include "bench/workload/answer.h"
 #include "bench/workload/steps.h"
 #include "core/detector.h"
+#include "core/mesh_motion.h"
 #include "core/mesh_update.h"
 #include "core/search/many/many_options.h"
 
@@ -78,6 +79,11 @@ class Contestant {
   }
   virtual std::size_t contacts(const Probe& probe, double reach, std::span<Contact> into) noexcept {
     return static_cast<void>(probe), static_cast<void>(reach), static_cast<void>(into), 0;
+  }
+  /// Returns true if it answers while the mesh moves: see the concept AnswersMovingSweep.
+  virtual bool sees_mesh_motion() const noexcept { return false; }
+  virtual std::optional<Impact> first_hit_moving(const Sweep& sweep, const MeshMotion& motion) noexcept {
+    return static_cast<void>(sweep), static_cast<void>(motion), std::nullopt;
   }
   /// Returns true if it can follow a mesh whose vertices move. Only then may it be asked to; the session
   /// stays.

@@ -19,6 +19,7 @@
 #include "bench/workload/answer.h"
 #include "bench/workload/steps.h"
 #include "core/detector.h"
+#include "core/mesh_motion.h"
 #include "core/mesh_update.h"
 #include "core/search/many/nearest_many.h"
 
@@ -137,6 +138,12 @@ class ContestantOf final : public Contestant {
                        [[maybe_unused]] std::span<Contact> into) noexcept override {
     if constexpr (AnswersContacts<D>) return detector_->contacts(probe, reach, *session_, into);
     return 0;
+  }
+  bool sees_mesh_motion() const noexcept override { return AnswersMovingSweep<D>; }
+  std::optional<Impact> first_hit_moving([[maybe_unused]] const Sweep& sweep,
+                                         [[maybe_unused]] const MeshMotion& motion) noexcept override {
+    if constexpr (AnswersMovingSweep<D>) return detector_->first_hit_moving(sweep, motion, *session_);
+    return std::nullopt;
   }
   bool updates() const noexcept override {
     if constexpr (KnownOnceBuilt<D>) return detector_->updates();
