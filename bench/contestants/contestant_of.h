@@ -130,7 +130,12 @@ class ContestantOf final : public Contestant {
       return detector_->touches(probe, *session_);
     return false;
   }
-  std::optional<Impact> first_hit([[maybe_unused]] const Sweep& sweep) noexcept override {
+  std::optional<Impact> first_hit([[maybe_unused]] const Sweep& sweep,
+                                  const MeshMotion* motion) noexcept override {
+    if (motion != nullptr) {
+      if constexpr (AnswersMovingSweep<D>) return detector_->first_hit_moving(sweep, *motion, *session_);
+      return Impact{0, {sweep.from, Vec3::UnitZ()}};
+    }
     if constexpr (AnswersSweep<D>) return detector_->first_hit(sweep, *session_);
     return std::nullopt;
   }
@@ -138,12 +143,6 @@ class ContestantOf final : public Contestant {
                        [[maybe_unused]] std::span<Contact> into) noexcept override {
     if constexpr (AnswersContacts<D>) return detector_->contacts(probe, reach, *session_, into);
     return 0;
-  }
-  bool sees_mesh_motion() const noexcept override { return AnswersMovingSweep<D>; }
-  std::optional<Impact> first_hit_moving([[maybe_unused]] const Sweep& sweep,
-                                         [[maybe_unused]] const MeshMotion& motion) noexcept override {
-    if constexpr (AnswersMovingSweep<D>) return detector_->first_hit_moving(sweep, motion, *session_);
-    return std::nullopt;
   }
   bool updates() const noexcept override {
     if constexpr (KnownOnceBuilt<D>) return detector_->updates();

@@ -25,12 +25,11 @@ class AskedContestant {
 
   bool touches(const Probe& probe, Session&) const noexcept { return contestant_->touches(probe); }
   std::optional<Impact> first_hit(const Sweep& sweep, Session&) const noexcept {
-    return contestant_->first_hit(sweep);
+    return contestant_->first_hit(sweep, nullptr);
   }
-  bool sees_mesh_motion() const noexcept { return contestant_->sees_mesh_motion(); }
   std::optional<Impact> first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
                                          Session&) const noexcept {
-    return contestant_->first_hit_moving(sweep, motion);
+    return contestant_->first_hit(sweep, &motion);
   }
   std::size_t contacts(const Probe& probe, double reach, Session&, std::span<Contact> into) const noexcept {
     return contestant_->contacts(probe, reach, into);
@@ -72,8 +71,7 @@ class GuidedProxy {
   /// Returns false if the mesh may have passed the proxy on its way: the contestant does not see the motion,
   /// or finds no way out of it.
   bool update(const TriangleMesh& mesh) {
-    const bool is_pushed =
-        detector_.sees_mesh_motion() && proxy_.surface_moving(MeshMotion(*mesh_, mesh), session_);
+    const bool is_pushed = proxy_.surface_moving(MeshMotion(*mesh_, mesh), session_);
     detector_.update(mesh);
     mesh_ = mesh;
     shading_.emplace(*mesh_);
