@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/detector.h"
+#include "core/probe.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark {
@@ -41,8 +41,8 @@ class MeshMotion {
 /// 2^-50 early. A ball may be told to be touched where it is as near as max_early_moving_gap of
 /// core/geometry/moving_triangle_sweep.h says. No fraction is late. A limit of work plays no part.
 template <class D>
-concept AnswersMovingSweep = Detector<D> && requires(const D& detector, const Sweep& sweep,
-                                                     const MeshMotion& motion, typename D::Session& session) {
+concept AnswersMovingSweep = requires(const D& detector, const Sweep& sweep, const MeshMotion& motion,
+                                      typename D::Session& session) {
   { detector.first_hit_moving(sweep, motion, session) } noexcept -> std::same_as<std::optional<Impact>>;
 };
 // clang-format on

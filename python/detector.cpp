@@ -98,23 +98,27 @@ void BatchDetector::expect_usable() const {
   if (!usable_) throw std::invalid_argument("the detector's last update failed half-way: build it anew");
 }
 
-void BatchDetector::update(std::vector<Vec3> vertices) {
-  const std::unique_lock alone(lock_);
-  expect_usable();
+std::shared_ptr<const TriangleMesh> BatchDetector::moved(std::vector<Vec3> vertices) const {
   if (vertices.size() != mesh_->vertices().size())
     throw std::invalid_argument("vertices has " + std::to_string(vertices.size()) + " rows; the mesh has " +
                                 std::to_string(mesh_->vertices().size()) + " vertices");
-  auto moved = std::make_shared<const TriangleMesh>(
+  return std::make_shared<const TriangleMesh>(
       std::move(vertices),
       std::vector<TriangleMesh::Corners>(mesh_->triangles().begin(), mesh_->triangles().end()));
+}
+
+void BatchDetector::update(std::vector<Vec3> vertices) {
+  const std::unique_lock alone(lock_);
+  expect_usable();
+  std::shared_ptr<const TriangleMesh> next = moved(std::move(vertices));
   usable_ = false;
   try {
-    detector_->update(*moved);
+    detector_->update(*next);
   } catch (const std::invalid_argument&) {
     usable_ = true;
     throw;
   }
-  mesh_ = std::move(moved);
+  mesh_ = std::move(next);
   sides_.reset();
   ++updates_;
   usable_ = true;

@@ -28,6 +28,11 @@ struct Points {
   Vec3 at(std::size_t i) const noexcept {
     return {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]};
   }
+  std::vector<Vec3> all() const {
+    std::vector<Vec3> points(count);
+    for (std::size_t i = 0; i < count; ++i) points[i] = at(i);
+    return points;
+  }
 };
 
 /// One number for all points, or one for each.
@@ -87,6 +92,8 @@ class BatchDetector {
   ForkSafeLock& lock() const noexcept { return lock_; }
   const NamedDetector& detector() const noexcept { return *detector_; }
   const TriangleMesh& locked_mesh() const noexcept { return *mesh_; }
+  /// Returns the mesh with its vertices elsewhere. Throws MeshError or std::invalid_argument.
+  std::shared_ptr<const TriangleMesh> moved(std::vector<Vec3> vertices) const;
   std::uint64_t updates() const noexcept { return updates_; }
 
  private:

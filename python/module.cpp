@@ -106,9 +106,7 @@ py::tuple contacts(const BatchDetector& detector, const Array<double>& centers, 
 void update(BatchDetector& detector, const Array<double>& vertices) {
   const Points from = points(vertices, "vertices");
   const py::gil_scoped_release released;
-  std::vector<Vec3> moved(from.count);
-  for (std::size_t i = 0; i < from.count; ++i) moved[i] = from.at(i);
-  detector.update(std::move(moved));
+  detector.update(from.all());
 }
 
 /// The mesh as it is now.

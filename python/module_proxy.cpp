@@ -6,6 +6,7 @@
 #include <shared_mutex>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "python/arrays.h"
 #include "python/detector.h"
@@ -13,6 +14,7 @@
 
 #include "core/haptics/coupling.h"
 #include "core/haptics/proxy.h"
+#include "core/mesh_motion.h"
 #include "core/named/named_detector.h"
 
 using namespace pybind11::literals;
@@ -44,17 +46,28 @@ class HapticPoint {
 
   const ProxyState& step(const Vec3& goal) {
     const std::shared_lock shared = locked();
-    if (!placed_) throw std::invalid_argument("the proxy was never placed: call place");
-    if (updates_ != detector_->updates()) {
-      updates_ = detector_->updates();
-      proxy_->surface_moved(&detector_->locked_mesh());
-    }
+    see_updates();
     return proxy_->step(goal, *session_);
+  }
+
+  bool surface_moving(std::vector<Vec3> vertices) {
+    const std::shared_lock shared = locked();
+    detector_->detector().expect_sees_mesh_motion();
+    const std::shared_ptr<const TriangleMesh> after = detector_->moved(std::move(vertices));
+    see_updates();
+    return proxy_->surface_moving(MeshMotion(detector_->locked_mesh(), *after), *session_);
   }
 
   Vec3 force_now(const Vec3& goal) const noexcept { return proxy_->force_now(goal); }
 
  private:
+  /// Forgets what it knew of the surface, if that was updated.
+  void see_updates() {
+    if (!placed_) throw std::invalid_argument("the proxy was never placed: call place");
+    if (updates_ == detector_->updates()) return;
+    updates_ = detector_->updates();
+    proxy_->surface_moved(&detector_->locked_mesh());
+  }
   /// A batch that wants the interpreter's lock may hold an update up: it is let go while this waits.
   std::shared_lock<ForkSafeLock> locked() const {
     std::shared_lock shared(detector_->lock(), std::try_to_lock);
@@ -110,6 +123,12 @@ void define_proxy(py::module_& module) {
             point.place(one_point(position, "position"));
           },
           "position"_a.noconvert())
+      .def(
+          "surface_moving",
+          [](HapticPoint& point, const Array<double>& vertices) {
+            return point.surface_moving(points(vertices, "vertices").all());
+          },
+          "vertices"_a.noconvert())
       .def("step", &step, "goal"_a.noconvert())
       .def(
           "force_now",

@@ -15,6 +15,7 @@
 #include "bench/workload/answer.h"
 #include "bench/workload/steps.h"
 #include "core/detector.h"
+#include "core/mesh_motion.h"
 #include "core/mesh_update.h"
 #include "core/search/many/many_options.h"
 
@@ -73,8 +74,10 @@ class Contestant {
   /// such as a proxy's.
   virtual bool guides_proxy() const noexcept { return false; }
   virtual bool touches(const Probe& probe) noexcept { return static_cast<void>(probe), false; }
-  virtual std::optional<Impact> first_hit(const Sweep& sweep) noexcept {
-    return static_cast<void>(sweep), std::nullopt;
+  /// `motion` is the mesh's meanwhile, null where it stands. One that does not see it takes all for touched
+  /// at the start.
+  virtual std::optional<Impact> first_hit(const Sweep& sweep, const MeshMotion* motion) noexcept {
+    return static_cast<void>(sweep), static_cast<void>(motion), std::nullopt;
   }
   virtual std::size_t contacts(const Probe& probe, double reach, std::span<Contact> into) noexcept {
     return static_cast<void>(probe), static_cast<void>(reach), static_cast<void>(into), 0;

@@ -19,6 +19,7 @@
 #include "bench/workload/answer.h"
 #include "bench/workload/steps.h"
 #include "core/detector.h"
+#include "core/mesh_motion.h"
 #include "core/mesh_update.h"
 #include "core/search/many/nearest_many.h"
 
@@ -129,7 +130,12 @@ class ContestantOf final : public Contestant {
       return detector_->touches(probe, *session_);
     return false;
   }
-  std::optional<Impact> first_hit([[maybe_unused]] const Sweep& sweep) noexcept override {
+  std::optional<Impact> first_hit([[maybe_unused]] const Sweep& sweep,
+                                  const MeshMotion* motion) noexcept override {
+    if (motion != nullptr) {
+      if constexpr (AnswersMovingSweep<D>) return detector_->first_hit_moving(sweep, *motion, *session_);
+      return Impact{0, {sweep.from, Vec3::UnitZ()}};
+    }
     if constexpr (AnswersSweep<D>) return detector_->first_hit(sweep, *session_);
     return std::nullopt;
   }

@@ -11,6 +11,7 @@
 #include "bench/contestants/contestant.h"
 #include "core/haptics/force_shading.h"
 #include "core/haptics/proxy.h"
+#include "core/mesh_motion.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::contestants {
@@ -24,7 +25,11 @@ class AskedContestant {
 
   bool touches(const Probe& probe, Session&) const noexcept { return contestant_->touches(probe); }
   std::optional<Impact> first_hit(const Sweep& sweep, Session&) const noexcept {
-    return contestant_->first_hit(sweep);
+    return contestant_->first_hit(sweep, nullptr);
+  }
+  std::optional<Impact> first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
+                                         Session&) const noexcept {
+    return contestant_->first_hit(sweep, &motion);
   }
   std::size_t contacts(const Probe& probe, double reach, Session&, std::span<Contact> into) const noexcept {
     return contestant_->contacts(probe, reach, into);
@@ -63,11 +68,15 @@ class GuidedProxy {
     proxy_.limit_work(max_work);
     return detector_.limited_work(session_) != nullptr;
   }
-  void update(const TriangleMesh& mesh) {
+  /// Returns false if the mesh may have passed the proxy on its way: the contestant does not see the motion,
+  /// or finds no way out of it.
+  bool update(const TriangleMesh& mesh) {
+    const bool is_pushed = proxy_.surface_moving(MeshMotion(*mesh_, mesh), session_);
     detector_.update(mesh);
     mesh_ = mesh;
     shading_.emplace(*mesh_);
     proxy_.surface_moved(&*mesh_);
+    return is_pushed;
   }
   /// Does what a loop does before it reads its device: moves the bodies of a scene to where they are at this
   /// step, and prepares.

@@ -61,10 +61,14 @@ class Certified final : public ProxyMethod {
       : bare_(std::move(bare)), proxy_(std::move(contestant), mesh, coupling) {}
 
   void place(const Vec3& position) override { proxy_.place(position); }
-  void step(const Vec3& goal, Step& step) override { take(proxy_.step(goal), step); }
+  void step(const Vec3& goal, Step& step) override {
+    take(proxy_.step(goal), step);
+    step.squeezed = std::exchange(squeezed_, false);
+    if (step.squeezed) step.status = Status::stuck;
+  }
   void update(const TriangleMesh& mesh) override {
     bare_.update(mesh);
-    proxy_.update(mesh);
+    squeezed_ = !proxy_.update(mesh);
   }
   bool limit_work(std::uint64_t max_work) override { return proxy_.limit_work(max_work); }
   bool ask_nearest(const Vec3& goal) override { return bare_.ask(goal), true; }
@@ -73,6 +77,7 @@ class Certified final : public ProxyMethod {
  private:
   BareQuery bare_;
   contestants::GuidedProxy proxy_;
+  bool squeezed_ = false;  ///< for the next step to say
 };
 
 }  // namespace

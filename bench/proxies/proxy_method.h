@@ -29,6 +29,7 @@ struct Step {
   Vec3 force = Vec3::Zero();  ///< N, on the device
   Status status = Status::free;
   bool unfinished = false;  ///< the method's limit of work ended it
+  bool squeezed = false;    ///< the method says that the surface may have passed the proxy as it moved
 
   void begin(const Vec3& from) {
     way.assign(1, from);

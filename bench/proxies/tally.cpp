@@ -1,6 +1,7 @@
 #include "bench/proxies/tally.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bench/oracle/exact/constrained_optimum.h"
 
@@ -40,9 +41,8 @@ bool Judge::violates(const Vec3& position) const {
                             : oracle_->meets(position, position);
 }
 
-void Judge::see(const WayOracle& oracle, const std::function<void()>& move,
-                const std::optional<Vec3>& shift) {
-  shift_ = shift;
+void Judge::see(const WayOracle& oracle, const std::function<void()>& move, Passage passage) {
+  passage_ = std::move(passage);
   const bool was_fine = oracle_ == nullptr || excused_ || !violates(position_);
   move();
   oracle_ = &oracle;
@@ -61,9 +61,11 @@ void Judge::tick(std::size_t index, const Step& step) {
   }
   if (step.status == Status::in_contact) ++tally_.contact_ticks;
   if (step.status == Status::stuck) ++tally_.stuck_ticks;
-  judge_carried(step.way.front());
+  const std::uint64_t crossings = tally_.crossings;
+  judge_carried(step);
   tally_.pieces += step.way.size() - 1;
   judge_way(step, goal);
+  tally_.crossings = std::min(tally_.crossings, crossings + 1);
   judge_rest(index, step);
   judge_force(index, step);
   if (!optima_.empty()) {
@@ -75,10 +77,10 @@ void Judge::tick(std::size_t index, const Step& step) {
   position_ = step.position();
 }
 
-/// In the frame of what goes straight the proxy came straight from where that saw it before the tick.
-void Judge::judge_carried(const Vec3& to) {
-  if (shift_ && oracle_->meets(position_ + *shift_, to)) ++tally_.crossings;
-  shift_.reset();
+void Judge::judge_carried(const Step& step) {
+  const Vec3& to = step.way.front();
+  if (passage_ && !step.squeezed && passage_(position_, to)) ++tally_.crossings;
+  passage_ = nullptr;
   if (to == position_) return;
   position_ = clear_at_ = to;
   excused_ = violates(to);

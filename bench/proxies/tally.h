@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "bench/measurement/histogram.h"
@@ -43,6 +42,9 @@ struct Tally {
 /// The goal's constrained optima along a course; empty where they are not known.
 std::vector<Vec3> optima_of(const Course& course);
 
+/// True if the surface, when it last moved, went through a proxy that was taken from one place to another.
+using Passage = std::function<bool(const Vec3& from, const Vec3& to)>;
+
 /// Judges one method on one course, tick by tick. The oracle and the references must outlive it.
 class Judge {
  public:
@@ -51,15 +53,14 @@ class Judge {
 
   /// To be called before the first tick and whenever the mesh has moved. What the surface does to a proxy
   /// that rests is not the method's doing: until it is off again its ticks count for neither. `move` moves
-  /// what the oracle of before knows, where it is the same. Where all of the surface goes straight by `shift`
-  /// meanwhile, a proxy that it goes through has crossed, too.
+  /// what the oracle of before knows, where it is the same. A proxy that the surface passes meanwhile has
+  /// crossed in the next tick, unless that says that it was squeezed.
   void see(
-      const WayOracle& oracle, const std::function<void()>& move = [] {},
-      const std::optional<Vec3>& shift = std::nullopt);
+      const WayOracle& oracle, const std::function<void()>& move = [] {}, Passage passage = nullptr);
   void tick(std::size_t index, const Step& step);
 
  private:
-  void judge_carried(const Vec3& to);
+  void judge_carried(const Step& step);
   void judge_end(const Step& step, const Vec3& goal);
   void judge_way(const Step& step, const Vec3& goal);
   void judge_side(const Step& step, bool crossed);
@@ -74,7 +75,7 @@ class Judge {
   const WayOracle* oracle_ = nullptr;
   Vec3 position_, force_ = Vec3::Zero();
   bool excused_ = false;
-  std::optional<Vec3> shift_;
+  Passage passage_;
   /// The place where it was last clear of the surface, or seen first: on which side is asked after a crossing
   /// only, as it takes exact arithmetic over the whole mesh.
   Vec3 clear_at_ = Vec3::Zero();

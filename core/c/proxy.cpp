@@ -10,11 +10,13 @@
 #include "core/c/handles.h"
 #include "core/c/touchmark.h"
 #include "core/haptics/coupling.h"
+#include "core/mesh_motion.h"
 #include "core/named/named_detector.h"
 
 using namespace touchmark::c;
 using touchmark::Coupling;
 using touchmark::ForcePlanes;
+using touchmark::MeshMotion;
 using touchmark::NamedDetector;
 using touchmark::Proxy;
 using touchmark::ProxyState;
@@ -27,6 +29,13 @@ struct touchmark_proxy {
         updates(held->updates),
         proxy(*held->detector, coupling, held->mesh.get()) {
     held->detector->expect_limited(coupling.max_work, *memory);
+  }
+
+  /// Forgets what it knew of the surface, if that was updated.
+  void see_updates() noexcept {
+    if (updates == held->updates) return;
+    updates = held->updates;
+    proxy.surface_moved(held->mesh.get());
   }
 
   std::shared_ptr<const Held> held;
@@ -97,16 +106,27 @@ int touchmark_proxy_place(touchmark_proxy* proxy, const double position[3]) {
   return TOUCHMARK_YES;
 }
 
+int touchmark_proxy_surface_moving(touchmark_proxy* proxy, const touchmark_mesh* mesh) {
+  if (proxy == nullptr) return fail_for_null(__func__, "proxy");
+  if (mesh == nullptr) return fail_for_null(__func__, "mesh");
+  if (!proxy->held->usable) return fail(unusable);
+  if (!proxy->placed)
+    return fail("touchmark_proxy_surface_moving: the proxy was never placed: call touchmark_proxy_place");
+  return guarded(__func__, int{TOUCHMARK_ERROR}, [&] {
+    proxy->held->detector->expect_sees_mesh_motion();
+    const MeshMotion motion(*proxy->held->mesh, *mesh->mesh);
+    proxy->see_updates();
+    return proxy->proxy.surface_moving(motion, *proxy->memory) ? int{TOUCHMARK_YES} : int{TOUCHMARK_NO};
+  });
+}
+
 int touchmark_proxy_step(touchmark_proxy* proxy, const double goal[3], touchmark_proxy_state* state) {
   if (proxy == nullptr) return fail_for_null(__func__, "proxy");
   if (goal == nullptr) return fail_for_null(__func__, "goal");
   if (!proxy->held->usable) return fail(unusable);
   if (!proxy->placed)
     return fail("touchmark_proxy_step: the proxy was never placed: call touchmark_proxy_place");
-  if (proxy->updates != proxy->held->updates) {
-    proxy->updates = proxy->held->updates;
-    proxy->proxy.surface_moved(proxy->held->mesh.get());
-  }
+  proxy->see_updates();
   const ProxyState& now = proxy->proxy.step(point(goal), *proxy->memory);
   if (state != nullptr) store_state(now, *state);
   return now.contacts > 0 ? TOUCHMARK_YES : TOUCHMARK_NO;

@@ -172,6 +172,11 @@ TOUCHMARK_API touchmark_proxy* touchmark_proxy_create(const touchmark_detector* 
 TOUCHMARK_API void touchmark_proxy_free(touchmark_proxy* proxy);
 /// Puts the proxy anywhere and forgets all contacts. Fails for a place that is not finite.
 TOUCHMARK_API int touchmark_proxy_place(touchmark_proxy* proxy, const double position[3]);
+/// To be called before touchmark_detector_update with that mesh, which may move the surface over the proxy.
+/// The proxy goes straight to where the surface pushes it, and the next step's way begins with that. Returns
+/// TOUCHMARK_YES, or TOUCHMARK_NO where no way out is found: it stays, and the surface may pass it. Fails for
+/// a proxy that was never placed, for other triangles, and over grid-group and the published forms.
+TOUCHMARK_API int touchmark_proxy_surface_moving(touchmark_proxy* proxy, const touchmark_mesh* mesh);
 /// One tick: follows the goal, which is the device's tip, as far as the surface lets it. Takes no memory.
 /// Returns TOUCHMARK_YES where the surface holds it and TOUCHMARK_NO where nothing does or the goal is no
 /// number, and stores what came of it; `state` may be NULL. After touchmark_detector_update it goes on with

@@ -38,6 +38,13 @@ class Named final : public NamedDetector {
     if constexpr (KeepsToLimit<D>) return &own(session).work;
     return nullptr;
   }
+  std::optional<Impact> first_hit_moving([[maybe_unused]] const Sweep& sweep,
+                                         [[maybe_unused]] const MeshMotion& motion,
+                                         [[maybe_unused]] Session& session) const noexcept override {
+    if constexpr (AnswersMovingSweep<D>) return detector_.first_hit_moving(sweep, motion, own(session));
+    return std::nullopt;
+  }
+  bool sees_mesh_motion() const noexcept override { return AnswersMovingSweep<D>; }
   void prepare([[maybe_unused]] Session& session) const noexcept override {
     if constexpr (Prepares<D>) detector_.prepare(own(session));
   }
@@ -109,6 +116,12 @@ void NamedDetector::expect_limited(std::uint64_t max_work, Session& session) con
   if (max_work > 0 && limited_work(session) == nullptr)
     throw std::invalid_argument("max_work is " + std::to_string(max_work) +
                                 ", but this detector keeps to no limit; sphere-cluster and grid-group do");
+}
+
+void NamedDetector::expect_sees_mesh_motion() const {
+  if (!sees_mesh_motion())
+    throw std::invalid_argument(
+        "this detector does not see how a mesh moves; sphere-cluster, aabb-tree and brute-force do");
 }
 
 std::string_view NamedDetector::names() noexcept {

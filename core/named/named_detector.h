@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/detector.h"
+#include "core/mesh_motion.h"
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
@@ -54,6 +55,12 @@ class NamedDetector {
   virtual LimitedWork* limited_work(Session& session) const noexcept = 0;
   /// Throws std::invalid_argument where a proxy's work is to be limited and the detector keeps to no limit.
   void expect_limited(std::uint64_t max_work, Session& session) const;
+  /// See the concept AnswersMovingSweep. Returns nothing where sees_mesh_motion() is false.
+  virtual std::optional<Impact> first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
+                                                 Session& session) const noexcept = 0;
+  virtual bool sees_mesh_motion() const noexcept = 0;
+  /// Throws std::invalid_argument where a proxy is to be pushed by a mesh whose motion is not seen.
+  void expect_sees_mesh_motion() const;
   /// Does nothing where the detector prepares nothing.
   virtual void prepare(Session& session) const noexcept = 0;
   virtual std::size_t bytes() const noexcept = 0;

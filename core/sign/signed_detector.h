@@ -11,6 +11,7 @@
 
 #include "core/detector.h"
 #include "core/geometry/sphere_triangle_sweep.h"
+#include "core/mesh_motion.h"
 #include "core/mesh_update.h"
 #include "core/sign/side_finder.h"
 
@@ -60,6 +61,12 @@ class Signed {
           sides_.side(position_at(sweep, impact->fraction), impact->contact, approximate, session.counted);
     }
     return impact;
+  }
+
+  /// The side is not told.
+  std::optional<Impact> first_hit_moving(const Sweep& sweep, const MeshMotion& motion,
+                                         Session& session) const noexcept requires AnswersMovingSweep<D> {
+    return detector_.first_hit_moving(sweep, motion, session);
   }
 
   /// The side is that of the centre, the same for all.

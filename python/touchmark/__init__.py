@@ -580,6 +580,14 @@ class Proxy:
         """Puts the proxy anywhere, (3,), and forgets all contacts."""
         self._native.place(_point("position", position))
 
+    def surface_moving(self, vertices: npt.ArrayLike) -> bool:
+        """Puts the proxy ahead of a surface that the detector's next `update` moves over it; to be called before that.
+
+        Takes the same vertices, (n, 3). False where no way out is found: then it stays, and the surface may pass it. Not over
+        a GridGroup or a published form.
+        """
+        return self._native.surface_moving(_points("vertices", vertices))
+
     def step(self, goal: npt.ArrayLike) -> ProxyState:
         """One tick: follows the goal, (3,), which is the device's tip, as far as the surface lets it."""
         position, force, contacts, status, unfinished = self._native.step(_point("goal", goal))

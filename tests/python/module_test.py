@@ -544,6 +544,21 @@ class Proxies(unittest.TestCase):
         np.testing.assert_array_equal(proxy.step((0, 0, 0)).position, 0)
         self.assertIs(proxy.detector, detector)
 
+    def test_a_surface_that_an_update_moves_over_it_pushes_it(self):
+        for radius in (0, 0.1):
+            detector = touchmark.AabbTree(self.PLATE)
+            proxy = touchmark.Proxy(detector, (0, 0, 1), radius=radius)
+            above = np.array(self.PLATE.vertices) + [0, 0, 3]
+            self.assertTrue(proxy.surface_moving(above))
+            detector.update(above)
+            held = proxy.step((0, 0, 0))
+            np.testing.assert_allclose(held.position, (0, 0, 3 + radius), atol=1e-6)
+            self.assertEqual(held.status, touchmark.ProxyStatus.IN_CONTACT)
+            with self.assertRaisesRegex(ValueError, "vertices has 1 rows"):
+                proxy.surface_moving(((0, 0, 0),))
+        with self.assertRaisesRegex(ValueError, "does not see how a mesh moves"):
+            touchmark.Proxy(touchmark.GridGroup(self.PLATE), (0, 0, 1)).surface_moving(above)
+
     def test_what_it_cannot_be_made_of_or_follow_is_refused(self):
         detector = touchmark.GridGroup(self.PLATE)
         for call, message in ((lambda: touchmark.Proxy(detector, (0, 0)), r"position has the shape \(2,\)"),

@@ -1,6 +1,5 @@
 // Courses among bodies that move between the ticks: pushed into the proxy, and closing on it from two sides.
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,7 +10,6 @@
 
 #include "bench/experiments/proxy/course_makers.h"
 #include "bench/meshes/generated_meshes.h"
-#include "bench/meshes/portable_sincos.h"
 
 namespace touchmark::bench::experiments::proxy {
 namespace {
@@ -28,24 +26,21 @@ TriangleMesh on_grid(const TriangleMesh& mesh) {
   return {std::move(vertices), {mesh.triangles().begin(), mesh.triangles().end()}};
 }
 
-/// To and fro, so many changes a period.
-struct Swing {
+/// A body's way to and fro.
+struct Sway {
   Vec3 about, by;
-  double period, phase;
+  Swing swing;
 
-  Vec3 at(std::size_t change) const {
-    const double turns = static_cast<double>(change) / period + phase;
-    return on_grid(about + meshes::portable_sincos(turns - std::floor(turns)).sin * by);
-  }
+  Vec3 at(std::size_t change) const { return on_grid(about + swing.at(change) * by); }
 };
 
 struct Swinging {
   std::vector<TriangleMesh> bodies;
-  std::vector<Swing> swings;
+  std::vector<Sway> sways;
 
-  void add(const TriangleMesh& mesh, const Swing& swing) {
+  void add(const TriangleMesh& mesh, const Sway& sway) {
     bodies.push_back(on_grid(mesh));
-    swings.push_back(swing);
+    sways.push_back(sway);
   }
 };
 
@@ -62,10 +57,10 @@ Swinging press(double radius, support::Random& random) {
   const TriangleMesh below = std::move(slab).mesh();
   Swinging made;
   const Vec3 up = Vec3::UnitZ();
-  made.add(below, {-(least + swing) * up, swing * up, period, 0});
-  made.add(below, {(least + swing + thick) * up, -swing * up, period, 0});
+  made.add(below, {-(least + swing) * up, swing * up, {period, 0}});
+  made.add(below, {(least + swing + thick) * up, -swing * up, {period, 0}});
   made.add(std::move(block).mesh(),
-           {half * Vec3::UnitX(), 0.9 * half * Vec3::UnitX(), 30 + random.between(0, 50), random.unit()});
+           {half * Vec3::UnitX(), 0.9 * half * Vec3::UnitX(), {30 + random.between(0, 50), random.unit()}});
   return made;
 }
 
@@ -77,15 +72,15 @@ Swinging crowd(support::Random& random) {
     const TriangleMesh solid =
         placed(mesh, random.between(0.2, 0.5) * course_size / mesh.diagonal(), any_frame(random));
     made.add(solid, {0.3 * course_size * random.unit() * random.direction(),
-                     random.between(0.1, 0.5) * course_size * random.direction(), 40 + random.between(0, 160),
-                     random.unit()});
+                     random.between(0.1, 0.5) * course_size * random.direction(),
+                     {40 + random.between(0, 160), random.unit()}});
   }
   return made;
 }
 
 std::vector<Vec3> places_of(const Swinging& made, std::size_t change) {
   std::vector<Vec3> places;
-  for (const Swing& swing : made.swings) places.push_back(swing.at(change));
+  for (const Sway& sway : made.sways) places.push_back(sway.at(change));
   return places;
 }
 
@@ -104,7 +99,7 @@ Swinging passing(bool is_piston, support::Random& random) {
   const Vec3 way = is_piston ? Vec3::UnitZ() : random.direction();
   Swinging made;
   made.add(is_piston ? piston : placed(solid, 0.5 * course_size / solid.diagonal(), any_frame(random)),
-           {Vec3::Zero(), 0.9 * course_size * way, random.between(2.2, 6), random.unit()});
+           {Vec3::Zero(), 0.9 * course_size * way, {random.between(2.2, 6), random.unit()}});
   return made;
 }
 
@@ -113,13 +108,8 @@ Course course_among(std::string name, Swinging bodies, double radius, std::size_
                     std::size_t ticks, support::Random& random) {
   const auto swinging = std::make_shared<const Swinging>(std::move(bodies));
   const Vec3 start(0, 0, 1.5 * course_size);
-  Motion motion(start, ticks);
-  while (!motion.done()) {
-    motion.line(0.2 * course_size * random.unit() * random.direction(), 10 + random.below(40));
-    motion.rest(random.below(30));
-    if (random.below(4) == 0) motion.line(course_size * random.direction(), 20);
-  }
-  Course course{std::move(name), mesh_of(*swinging, 0), radius, 0, start, std::move(motion).take()};
+  Course course{
+      std::move(name), mesh_of(*swinging, 0), radius, 0, start, about_the_middle(start, ticks, random)};
   course.update_every = changes_every;
   course.moved = [swinging](std::size_t change) { return mesh_of(*swinging, change); };
   course.bodies = swinging->bodies;

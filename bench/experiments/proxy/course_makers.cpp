@@ -1,6 +1,9 @@
 #include "bench/experiments/proxy/course_makers.h"
 
+#include <cmath>
 #include <utility>
+
+#include "bench/meshes/portable_sincos.h"
 
 namespace touchmark::bench::experiments::proxy {
 
@@ -15,6 +18,21 @@ TriangleMesh placed(const TriangleMesh& mesh, double scale, const Frame& frame) 
   vertices.reserve(mesh.vertices().size());
   for (const Vec3& vertex : mesh.vertices()) vertices.push_back(frame(scale * vertex));
   return {std::move(vertices), {mesh.triangles().begin(), mesh.triangles().end()}};
+}
+
+double Swing::at(std::size_t change) const {
+  const double turns = static_cast<double>(change) / period + phase;
+  return meshes::portable_sincos(turns - std::floor(turns)).sin;
+}
+
+std::vector<Vec3> about_the_middle(const Vec3& start, std::size_t ticks, support::Random& random) {
+  Motion motion(start, ticks);
+  while (!motion.done()) {
+    motion.line(0.2 * course_size * random.unit() * random.direction(), 10 + random.below(40));
+    motion.rest(random.below(30));
+    if (random.below(4) == 0) motion.line(course_size * random.direction(), 20);
+  }
+  return std::move(motion).take();
 }
 
 Course exploring(std::string name, TriangleMesh mesh, double radius, std::uint64_t seed, std::size_t ticks) {

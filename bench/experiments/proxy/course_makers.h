@@ -43,6 +43,16 @@ inline double radius_of(std::size_t course, double size, double share = 0.03) {
   return course % 2 == 0 ? share * size : 0;
 }
 
+/// To and fro between -1 and 1, so many changes a period.
+struct Swing {
+  double period, phase;
+
+  double at(std::size_t change) const;
+};
+
+/// Goes about the middle, and far from it at times.
+std::vector<Vec3> about_the_middle(const Vec3& start, std::size_t ticks, support::Random& random);
+
 /// A course that explores the mesh from outside its box.
 Course exploring(std::string name, TriangleMesh mesh, double radius, std::uint64_t seed, std::size_t ticks);
 
@@ -68,5 +78,6 @@ std::vector<Course> friction(std::uint64_t seed, std::size_t ticks);
 std::vector<Course> deforming(std::uint64_t seed, std::size_t ticks);
 std::vector<Course> moving_bodies(std::uint64_t seed, std::size_t ticks);
 std::vector<Course> passing_bodies(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> passing_sheets(std::uint64_t seed, std::size_t ticks);
 
 }  // namespace touchmark::bench::experiments::proxy

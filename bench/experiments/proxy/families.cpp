@@ -36,6 +36,8 @@ constexpr std::array all_families{
            &moving_bodies},
     Family{"passing-bodies", "pistons and solids that go through the ball's place between two ticks",
            &passing_bodies},
+    Family{"passing-sheets", "sheets, bowls, waves and a box's side that go over the ball between two ticks",
+           &passing_sheets},
 };
 
 }  // namespace

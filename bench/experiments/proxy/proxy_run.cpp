@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "bench/oracle/exact/moving_meeting.h"
 #include "bench/support/system/interrupt.h"
 
 namespace touchmark::bench::experiments::proxy {
@@ -27,6 +27,18 @@ std::string where(const Course& course, std::size_t tick) {
   return fmt::format("{}, tick {}", course.name, tick);
 }
 
+/// Returns nothing for several bodies, which may carry a proxy one after another. What it refers to outlives
+/// the next tick.
+proxies::Passage passage(const Course& course, std::size_t change, const TriangleMesh& before,
+                         const TriangleMesh& after, const proxies::WayOracle& oracle) {
+  if (course.bodies.empty())
+    return [&](const Vec3& from, const Vec3& to) { return oracle::any_meets(before, after, from, to); };
+  if (course.bodies.size() > 1) return nullptr;
+  // In the frame of one body that goes straight, the proxy came straight from where that saw it before.
+  return [&oracle, shift = Vec3(course.places(change)[0] - course.places(change - 1)[0])](
+             const Vec3& from, const Vec3& to) { return oracle.meets(from + shift, to); };
+}
+
 }  // namespace
 
 void run_course(const contestants::Roster& roster, const Course& course, const std::vector<Vec3>& optima,
@@ -40,19 +52,18 @@ void run_course(const contestants::Roster& roster, const Course& course, const s
   proxies::Judge judge(course, optima, coupling, tally);
   judge.see(*oracle);
   Step step;
+  TriangleMesh mesh = course.mesh, last = mesh;
   for (std::size_t tick = 0; tick < course.goals.size(); ++tick) {
     if (course.update_every > 0 && tick > 0 && tick % course.update_every == 0) {
       const std::size_t change = tick / course.update_every;
-      const TriangleMesh mesh = course.moved(change);
+      last = std::exchange(mesh, course.moved(change));
       auto next = std::make_unique<const proxies::WayOracle>(mesh);
       if (course.places)
         proxy->move(course.places(change), mesh);
       else
         proxy->update(mesh);
-      std::optional<Vec3> shift;
-      if (course.bodies.size() == 1) shift = course.places(change)[0] - course.places(change - 1)[0];
       judge.see(
-          *next, [] {}, shift);  // which still asks the last one
+          *next, [] {}, passage(course, change, last, mesh, *next));  // which still asks the last one
       oracle = std::move(next);
     }
     const Clock::time_point asked = Clock::now();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -181,6 +182,25 @@ std::optional<MeetingTime> first_meeting(const Triangle& start, const Triangle& 
     if (!first || found.high < first->high) first = found;
   }
   return first;
+}
+
+bool any_meets(const TriangleMesh& before, const TriangleMesh& after, const Vec3& from, const Vec3& to) {
+  // All corners are on one side of the point along an axis, before and after, and so all the time.
+  const auto stays_aside = [&](const Triangle& start, const Triangle& end) {
+    for (Eigen::Index k = 0; k < 3; ++k)
+      for (const double sign : {1.0, -1.0}) {
+        const auto is_above = [&](const Vec3& at) {
+          return [=, &at](const Vec3& corner) { return sign * corner[k] > sign * at[k]; };
+        };
+        if (std::ranges::all_of(start, is_above(from)) && std::ranges::all_of(end, is_above(to))) return true;
+      }
+    return false;
+  };
+  for (std::uint32_t i = 0; i < before.size(); ++i) {
+    const Triangle start = triangle_of(before, i), end = triangle_of(after, i);
+    if (!stays_aside(start, end) && first_meeting(start, end, from, to)) return true;
+  }
+  return false;
 }
 
 }  // namespace touchmark::bench::oracle

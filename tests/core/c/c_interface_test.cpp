@@ -443,6 +443,37 @@ TEST(CInterface, AProxyNoticesThatTheSurfaceHasMoved) {
   EXPECT_NEAR(state.position[2], -0.9, 1e-9);
 }
 
+TEST(CInterface, ASurfaceThatAnUpdateMovesOverAProxyPushesIt) {
+  touchmark_mesh* const mesh = mesh_of(unit_triangle);
+  touchmark_mesh* const raised = mesh_of({{0, 0, 2, 1, 0, 2, 0, 1, 2}, {0, 1, 2}});
+  touchmark_detector* const detector = touchmark_detector_build(mesh, "aabb-tree:side=on");
+  touchmark_proxy* const proxy = touchmark_proxy_create(detector, nullptr);
+  const double above[3] = {0.2, 0.2, 1}, below[3] = {0.2, 0.2, -1};
+  EXPECT_EQ(touchmark_proxy_surface_moving(proxy, raised), TOUCHMARK_ERROR);
+  expect_error("touchmark_proxy_surface_moving: the proxy was never placed: call touchmark_proxy_place");
+  touchmark_proxy_place(proxy, above);
+  EXPECT_EQ(touchmark_proxy_surface_moving(proxy, raised), TOUCHMARK_YES);
+  EXPECT_EQ(touchmark_detector_update(detector, raised), TOUCHMARK_YES);
+  touchmark_proxy_state state{};
+  EXPECT_EQ(touchmark_proxy_step(proxy, below, &state), TOUCHMARK_YES);
+  EXPECT_GT(state.position[2], 2);
+  EXPECT_NEAR(state.position[2], 2, 1e-6);
+  EXPECT_EQ(touchmark_proxy_surface_moving(proxy, nullptr), TOUCHMARK_ERROR);
+  EXPECT_EQ(touchmark_proxy_surface_moving(nullptr, mesh), TOUCHMARK_ERROR);
+  const Asked blind(unit_triangle, "grid-group");
+  touchmark_proxy* const unpushed = touchmark_proxy_create(blind.detector(), nullptr);
+  touchmark_proxy_place(unpushed, above);
+  EXPECT_EQ(touchmark_proxy_surface_moving(unpushed, raised), TOUCHMARK_ERROR);
+  expect_error(
+      "touchmark_proxy_surface_moving: this detector does not see how a mesh moves; sphere-cluster, "
+      "aabb-tree and brute-force do");
+  touchmark_proxy_free(unpushed);
+  touchmark_proxy_free(proxy);
+  touchmark_detector_free(detector);
+  touchmark_mesh_free(raised);
+  touchmark_mesh_free(mesh);
+}
+
 TEST(CInterface, AProxyOutlivesTheHandlesItWasMadeOf) {
   touchmark_mesh* mesh = mesh_of(unit_triangle);
   touchmark_detector* detector = touchmark_detector_build(mesh, "aabb-tree");

@@ -27,6 +27,10 @@ void judge(const Case& c, Counts& counts) {
   const auto truth = bench::oracle::first_meeting(c.start, c.end, c.from, c.to);
   const std::optional<double> told = first_meeting(c.start, c.end, c.from, c.to);
   ASSERT_EQ(told.has_value(), truth.has_value());
+  const auto mesh = [](const auto& corners) {
+    return TriangleMesh({corners.begin(), corners.end()}, {{0, 1, 2}});
+  };
+  ASSERT_EQ(bench::oracle::any_meets(mesh(c.start), mesh(c.end), c.from, c.to), truth.has_value());
   ++(truth ? counts.met : counts.apart);
   if (!truth) return;
   ASSERT_LE(*told, truth->high);

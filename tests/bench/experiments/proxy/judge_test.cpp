@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/meshes/surface_builder.h"
+#include "bench/oracle/exact/moving_meeting.h"
 #include "bench/proxies/tally.h"
 #include "core/float_limits.h"
 
@@ -194,6 +195,32 @@ TEST(ProxyJudge, CountsABallThatGoesThroughTheSurfaceThatWasMovedOntoIt) {
   judge.tick(0, step);
   EXPECT_EQ(tally.crossings, 1U);
   EXPECT_EQ(tally.violations, 0U);
+}
+
+TEST(ProxyJudge, CountsAPointThatASheetPassesUnlessItIsTakenAlongOrSqueezed) {
+  const TriangleMesh low = sheet(), raised = low.transformed(1, Vec3(0, 0, 1));
+  const WayOracle before(low), after(raised);
+  const std::vector<Vec3> none;
+  const Vec3 at(0.3, 0.2, 0.5), ahead(0.3, 0.2, 1.5), late(0.3, 0.2, 1);
+  const auto crossings = [&](const Vec3& to, bool squeezed) {
+    Trial trial = over(low, 0, at, {});
+    trial.course.goals.assign(1, to);
+    Tally tally;
+    Judge judge(trial.course, none, trial.coupling, tally);
+    judge.see(before);
+    judge.see(
+        after, [] {},
+        [&](const Vec3& from, const Vec3& end) { return oracle::any_meets(low, raised, from, end); });
+    Step step;
+    step.begin(to);
+    step.squeezed = squeezed;
+    judge.tick(0, step);
+    return tally.crossings;
+  };
+  EXPECT_EQ(crossings(at, false), 1U);
+  EXPECT_EQ(crossings(late, false), 1U) << "it is met at the very end";
+  EXPECT_EQ(crossings(ahead, false), 0U);
+  EXPECT_EQ(crossings(at, true), 0U) << "the method has said so";
 }
 
 TEST(ProxyJudge, SumsTheEnergyOfAClosedTurn) {
