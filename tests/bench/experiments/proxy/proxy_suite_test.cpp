@@ -152,8 +152,11 @@ TEST(ProxyMethods, SheetsThatPassPushTheProxyAheadAndCrossWhatDoesNotSeeThem) {
     EXPECT_GT(score.tally.contact_ticks, score.tally.ticks / 4);
     EXPECT_LT(score.tally.stuck_ticks, score.tally.ticks / 20);
   }
-  for (const Score& score : scores_of("virtual-proxy"))
-    if (score.family == "passing-sheets") EXPECT_GT(score.tally.crossings, score.tally.ticks / 20);
+  for (const Score& score : scores_of("virtual-proxy")) {
+    if (score.family == "passing-sheets") {
+      EXPECT_GT(score.tally.crossings, score.tally.ticks / 20);
+    }
+  }
 }
 
 TEST(ProxyMethods, OverFclsSamplesThinPlatesAreJumpedThrough) {
