@@ -1,7 +1,6 @@
 #include "core/exact/distance_predicates.h"
 
 #include <cmath>
-#include <cstddef>
 #include <optional>
 #include <utility>
 
