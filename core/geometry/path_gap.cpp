@@ -246,14 +246,17 @@ PathGap::Approach PathGap::approach_to(Nearest feature, double fraction) const n
   return {value, 0x1p-91 * square, -rounded(offset).dot(path_), error_ * length_, across.squaredNorm()};
 }
 
+template <class Result>
+Result PathGap::in_unit(Result (PathGap::*ask)(double) const noexcept, double fraction) const noexcept {
+  const PreparedTriangle triangle = scaled(triangle_, unit_);
+  const Sweep sweep{unit_ * sweep_.from, unit_ * sweep_.to, unit_ * sweep_.radius};
+  return (PathGap(triangle, sweep).*ask)(fraction);
+}
+
 std::optional<double> PathGap::precise_touch(double fraction) const noexcept {
   constexpr int max_steps = 4;
   constexpr double margin = 64 * unit_roundoff, narrow = 0x1.8p-51;
-  if (unit_ != 1) {
-    const PreparedTriangle triangle = scaled(triangle_, unit_);
-    const Sweep sweep{unit_ * sweep_.from, unit_ * sweep_.to, unit_ * sweep_.radius};
-    return PathGap(triangle, sweep).precise_touch(fraction);
-  }
+  if (unit_ != 1) return in_unit(&PathGap::precise_touch, fraction);
   for (int step = 0; step < max_steps; ++step) {
     // A bare point that touches off the face's plane goes along it.
     const std::optional<Nearest> feature =
@@ -277,6 +280,7 @@ std::optional<double> PathGap::precise_touch(double fraction) const noexcept {
 }
 
 std::array<double, 7> PathGap::possible_touches(double fraction) const noexcept {
+  if (unit_ != 1) return in_unit(&PathGap::possible_touches, fraction);
   constexpr int steps = 3;  // each corrects what rounding did to the one before
   std::array<double, 7> touches;
   touches.fill(fraction);

@@ -84,6 +84,10 @@ class PathGap {
   [[gnu::noinline, gnu::cold]] void measure_in_unit(const PreparedTriangle& triangle,
                                                     const Sweep& sweep) noexcept;
   void finish() noexcept;
+  /// Asks a gap of the triangle and the sweep in `unit`: their coordinates are read where differences do not
+  /// do.
+  template <class Result>
+  Result in_unit(Result (PathGap::*ask)(double) const noexcept, double fraction) const noexcept;
   Corners corners_to(double fraction) const noexcept;
   bool is_over_face(const Corners& to) const noexcept;
   bool is_nearest(Nearest feature, const Corners& to) const noexcept;
