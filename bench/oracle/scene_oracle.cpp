@@ -19,7 +19,7 @@ namespace {
 // What is true of one triangle of a body, or of a round body, whose surface is so far from its axis. All
 // exact: bounds decide where they can, whole numbers where they cannot.
 
-/// Is the point nearer to a round body's axis than the surface is, by more than this?
+/// True if the point is nearer to a round body's axis than the surface is, by more than this.
 bool is_inside_by(const Vec3& point, const PlacedTriangle& round, double margin) {
   return margin < round.radius && compare_distance(point, round, round.radius, -margin) < 0;
 }
@@ -27,7 +27,7 @@ bool is_outside_by(const Vec3& point, const PlacedTriangle& round, double margin
   return compare_distance(point, round, round.radius, margin) > 0;
 }
 
-/// Is the surface within the radius, which is at least 0, of the point?
+/// True if the surface is within the radius, which is at least 0, of the point.
 bool is_within(const Vec3& point, const PlacedTriangle& triangle, double radius) {
   const Interval distance = bounds_of(point, triangle);
   if (distance.hi <= radius) return true;
@@ -36,7 +36,7 @@ bool is_within(const Vec3& point, const PlacedTriangle& triangle, double radius)
          !is_inside_by(point, triangle, radius);
 }
 
-/// Is it within the radius of a point of the segment?
+/// True if it is within the radius of a point of the segment.
 bool is_within(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle, double radius) {
   const Interval distance = bounds_of(from, to, triangle);
   if (distance.hi <= radius) return true;
@@ -58,7 +58,7 @@ bool is_nearer(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle,
          !(is_far_inside(from) && is_far_inside(to));
 }
 
-/// Is it within the radius of the point at that fraction of the path, not rounded?
+/// True if it is within the radius of the point at that fraction of the path, which is not rounded.
 bool is_within_on_path(const Sweep& sweep, double fraction, const PlacedTriangle& triangle, double radius) {
   const auto compare = [&](double more) {
     return compare_distance_on_path(sweep.from, sweep.to, fraction, triangle, triangle.radius, more);

@@ -18,11 +18,14 @@ using exact::Lattice;
 using exact::Vector;
 using ExactClosestPoint = exact::ExactClosestPoint<1>;
 
+exact::Corners<1> corners_from(const Lattice& lattice, const TriangleCorners& triangle,
+                               const Vector<1>& origin) noexcept {
+  return {lattice(triangle[0]) - origin, lattice(triangle[1]) - origin, lattice(triangle[2]) - origin};
+}
+
 ExactClosestPoint closest_of(const Lattice& lattice, const TriangleCorners& triangle,
                              const Vec3& point) noexcept {
-  const Vector<1> origin = lattice(point);
-  return exact::exact_closest_point<1>(
-      {lattice(triangle[0]) - origin, lattice(triangle[1]) - origin, lattice(triangle[2]) - origin});
+  return exact::exact_closest_point<1>(corners_from(lattice, triangle, lattice(point)));
 }
 
 bool all_finite(const TriangleCorners& triangle, const Vec3& point) noexcept {
@@ -50,9 +53,7 @@ std::optional<bool> meets_in_plane(const TriangleCorners& triangle, const Vec3& 
 exact::ExactPath<1> path_on(const Lattice& lattice, const TriangleCorners& triangle, const Vec3& from,
                             const Vec3& to) noexcept {
   const Vector<1> origin = lattice(from);
-  return {lattice(to) - origin,
-          {lattice(triangle[0]) - origin, lattice(triangle[1]) - origin, lattice(triangle[2]) - origin},
-          {}};
+  return {lattice(to) - origin, corners_from(lattice, triangle, origin), {}};
 }
 
 }  // namespace
@@ -86,7 +87,7 @@ std::optional<bool> meets_by_sides(const TriangleCorners& triangle, const Vec3& 
     const Vec3& in_plane = first == 0 ? from : to;
     return meets_in_plane(triangle, in_plane, in_plane);
   }
-  // Where the path meets the plane, these are as the barycentric coordinates.
+  // The three have the signs of the barycentric coordinates of the place where the path meets the plane.
   const int ab = side_of_plane(from, to, a, b), bc = side_of_plane(from, to, b, c);
   if (ab * bc < 0) return false;
   const int ca = side_of_plane(from, to, c, a);
@@ -108,8 +109,6 @@ bool path_within_exactly(const TriangleCorners& triangle, const Vec3& from, cons
                          double radius) noexcept {
   if (!(radius >= 0) || !all_finite(triangle, from) || !to.allFinite()) return false;
   if (std::isinf(radius)) return true;
-  if (radius == 0 && fraction == 1)
-    if (const std::optional<bool> meets = meets_by_sides(triangle, from, to)) return *meets;
   Lattice lattice(triangle, from);
   lattice.add(to);
   lattice.add(radius);

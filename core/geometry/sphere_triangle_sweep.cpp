@@ -55,7 +55,7 @@ class FirstTouch {
   Reached advance(const Reached& reached) const noexcept;
   std::optional<TouchBounds> conclude(const Reached& reached) const noexcept;
   std::optional<TouchBounds> decide(const Reached& reached, bool touches) noexcept;
-  double halve(double low, double high) noexcept;
+  double divide(double low, double high) noexcept;
 
   const PreparedTriangle& triangle_;
   const Sweep& sweep_;
@@ -121,16 +121,16 @@ double FirstTouch::refine(const TouchBounds& bounds) noexcept {
   constexpr double narrow = 0x1p-50;
   if (bounds.last - bounds.first < narrow) return bounds.first;
   if (const std::optional<double> precise = gap_.precise_touch(bounds.first)) return *precise;
-  if (sweep_.radius > 0) return halve(bounds.first, bounds.last);
+  if (sweep_.radius > 0) return divide(bounds.first, bounds.last);
   ++exact_decisions_;
   return std::max(bounds.first, first_meeting_exactly(triangle_.corner, sweep_.from, sweep_.to));
 }
 
 /// Divides the part in which the first touch is, down to less than 2^-50 of the path: beside the places where
 /// it may be, then in the middle.
-double FirstTouch::halve(double low, double high) noexcept {
+double FirstTouch::divide(double low, double high) noexcept {
   constexpr double grid = 0x1p53, narrow = 0x1p-51;
-  const auto divide = [&](double place) {
+  const auto divide_at = [&](double place) {
     const double middle = std::round(place * grid) / grid;
     if (!(low < middle && middle < high)) return;
     const PathGap::Sample there = gap_.at(middle);
@@ -141,10 +141,10 @@ double FirstTouch::halve(double low, double high) noexcept {
   };
   for (const double touch : gap_.possible_touches(low)) {
     if (high - low <= narrow) break;
-    divide(touch - narrow / 2);
-    divide(touch + narrow / 2);
+    divide_at(touch - narrow / 2);
+    divide_at(touch + narrow / 2);
   }
-  while (high - low > narrow) divide(std::midpoint(low, high));
+  while (high - low > narrow) divide_at(std::midpoint(low, high));
   return low;
 }
 

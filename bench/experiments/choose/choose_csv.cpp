@@ -80,7 +80,7 @@ namespace validation = results::validation;
 
 constexpr double digits = 1e-5;  // numbers are written with six
 
-/// Whoever has a rank holds, whoever has none says why not.
+/// A candidate with a rank holds; one without says why it does not.
 void check_rank(const validation::RowCheck& row, std::set<std::uint64_t>& ranks) {
   const bool ranked = !row.field("rank").empty();
   row.expect(ranked == row.field("why_not").empty(), "why_not", "must be there just where there is no rank");
