@@ -12,7 +12,7 @@
 namespace touchmark {
 namespace {
 
-using double_double::cross, double_double::difference;
+using double_double::cross, double_double::difference, double_double::dot;
 using DoubleDoubles = double_double::Vector;
 
 /// Bounds by how much the direction from the foot is off, for a distance that is off by `error`:
@@ -33,6 +33,16 @@ double first_root(double value, double fall, double curve, double raised) noexce
   const double root = (1 + raised) * fall * fall - curve * value;
   if (!(fall > 0) || !(root >= 0)) return infinity;
   return value / (fall + std::sqrt(root));
+}
+
+/// Returns where a linear function is zero that is `start` at 0 and `end` at 1, each off by less than `error`:
+/// early by less than 2^-50, or nothing where that is not known.
+std::optional<double> first_zero(DoubleDouble start, DoubleDouble end, double error) noexcept {
+  constexpr double narrow = 0x1p-52;
+  const DoubleDouble change = start - end;
+  const double least_change = std::abs(change.high) - 4 * error;
+  if (!(3 * error <= narrow * least_change)) return std::nullopt;
+  return std::max((start / change).rounded() - (narrow + unit_roundoff), 0.0);
 }
 
 /// Sums in double-double that are added up at the end: each is off by less than 2^-100 of the sum of all
@@ -246,11 +256,11 @@ PathGap::Approach PathGap::approach_to(Nearest feature, double fraction) const n
   return {value, 0x1p-91 * square, -rounded(offset).dot(path_), error_ * length_, across.squaredNorm()};
 }
 
-template <class Result>
-Result PathGap::in_unit(Result (PathGap::*ask)(double) const noexcept, double fraction) const noexcept {
+template <class Result, class Argument>
+Result PathGap::in_unit(Result (PathGap::*ask)(Argument) const noexcept, Argument argument) const noexcept {
   const PreparedTriangle triangle = scaled(triangle_, unit_);
   const Sweep sweep{unit_ * sweep_.from, unit_ * sweep_.to, unit_ * sweep_.radius};
-  return (PathGap(triangle, sweep).*ask)(fraction);
+  return (PathGap(triangle, sweep).*ask)(argument);
 }
 
 std::optional<double> PathGap::precise_touch(double fraction) const noexcept {
@@ -258,9 +268,7 @@ std::optional<double> PathGap::precise_touch(double fraction) const noexcept {
   constexpr double margin = 64 * unit_roundoff, narrow = 0x1.8p-51;
   if (unit_ != 1) return in_unit(&PathGap::precise_touch, fraction);
   for (int step = 0; step < max_steps; ++step) {
-    // A bare point that touches off the face's plane goes along it.
-    const std::optional<Nearest> feature =
-        radius_ == 0 ? Nearest{3, 0} : nearest_feature(corners_to(fraction));
+    const std::optional<Nearest> feature = nearest_feature(corners_to(fraction));
     if (!feature) break;
     const Approach to = approach_to(*feature, fraction);
     const double curve_error = margin * length_ * length_;
@@ -270,13 +278,43 @@ std::optional<double> PathGap::precise_touch(double fraction) const noexcept {
         first_root(to.value + to.value_error, to.fall - to.fall_error, to.curve + curve_error, -margin) *
         (1 + margin);
     // Tests are off by as much more as the place is beyond the path's end.
-    if (!(fraction + most < 1.125) || (radius_ > 0 && !is_nearest(*feature, corners_to(fraction + most))))
-      break;
+    if (!(fraction + most < 1.125) || !is_nearest(*feature, corners_to(fraction + most))) break;
     const double next = std::max(fraction, fraction + (least * (1 - margin) - unit_roundoff));
     if (fraction + most - next <= narrow) return next;
     fraction = next;
   }
   return std::nullopt;
+}
+
+std::optional<double> PathGap::precise_meeting(bool in_plane) const noexcept {
+  if (unit_ != 1) return in_unit(&PathGap::precise_meeting, in_plane);
+  const auto& [a, b, c] = triangle_.corner;
+  const DoubleDoubles normal = cross(difference(b, a), difference(c, a));
+  if (!in_plane)
+    return first_zero(dot(normal, difference(sweep_.from, a)), dot(normal, difference(sweep_.to, a)),
+                      0x1p-89 * size_ * size_ * size_);
+  // The last of the edges' lines that it crosses inwards, as seen along the axis that is nearest the normal.
+  const double side_error = 0x1p-94 * size_ * size_;
+  Eigen::Index axis = 0;
+  if (!(rounded(normal).cwiseAbs().maxCoeff(&axis) > side_error)) return std::nullopt;
+  const auto x = static_cast<std::size_t>((axis + 1) % 3), y = static_cast<std::size_t>((axis + 2) % 3);
+  const bool turns_left = rounded(normal)[axis] > 0;
+  double meeting = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3& corner = triangle_.corner[i];
+    const DoubleDoubles edge = difference(triangle_.corner[i == 2 ? 0 : i + 1], corner);
+    const auto side = [&](const Vec3& place) {
+      const DoubleDoubles to = difference(place, corner);
+      const DoubleDouble left = edge[x] * to[y] - edge[y] * to[x];
+      return turns_left ? left : -left;
+    };
+    const DoubleDouble start = side(sweep_.from);
+    if (start.high > side_error) continue;
+    const std::optional<double> crossing = first_zero(start, side(sweep_.to), side_error);
+    if (!crossing) return std::nullopt;
+    meeting = std::max(meeting, *crossing);
+  }
+  return meeting;
 }
 
 std::array<double, 7> PathGap::possible_touches(double fraction) const noexcept {

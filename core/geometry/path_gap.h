@@ -50,9 +50,12 @@ class PathGap {
   /// that a slope alone does not tell this of a ball that slides along an edge.
   bool stays_apart(double fraction, const Sample& there, double end) const noexcept;
 
-  /// Returns a fraction that is not later than the first touch, and earlier by less than 2^-50. Nothing where
-  /// double-doubles do not tell it. The path touches, and not before `fraction`: docs/exactness.md, E16.
+  /// Returns a fraction that is not later than a ball's first touch, and earlier by less than 2^-50. Nothing
+  /// where double-doubles do not tell it. The path touches, and not before `fraction`: docs/exactness.md, E16.
   std::optional<double> precise_touch(double fraction) const noexcept;
+  /// Likewise of a bare point that meets the triangle, not at its start; is all of its path exactly in the
+  /// triangle's plane?
+  std::optional<double> precise_meeting(bool in_plane) const noexcept;
 
   /// Returns where the ball touches the plane, the lines and the points of the triangle's features after
   /// `fraction`, rounded: one of them is likely where it touches the triangle. Infinite where there is none.
@@ -86,8 +89,8 @@ class PathGap {
   void finish() noexcept;
   /// Asks a gap of the triangle and the sweep in `unit`: their coordinates are read where differences do not
   /// do.
-  template <class Result>
-  Result in_unit(Result (PathGap::*ask)(double) const noexcept, double fraction) const noexcept;
+  template <class Result, class Argument>
+  Result in_unit(Result (PathGap::*ask)(Argument) const noexcept, Argument argument) const noexcept;
   Corners corners_to(double fraction) const noexcept;
   bool is_over_face(const Corners& to) const noexcept;
   bool is_nearest(Nearest feature, const Corners& to) const noexcept;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/exact/distance_predicates.h"
+#include "core/exact/orientation.h"
 #include "core/float_limits.h"
 #include "core/geometry/path_gap.h"
 
@@ -54,7 +55,8 @@ class FirstTouch {
   static Crossing crossing_of(const Reached& first, const Reached& second) noexcept;
   Reached advance(const Reached& reached) const noexcept;
   std::optional<TouchBounds> conclude(const Reached& reached) const noexcept;
-  std::optional<TouchBounds> decide(const Reached& reached, bool touches) noexcept;
+  std::optional<TouchBounds> decide(const Reached& reached) noexcept;
+  double meeting() noexcept;
   double divide(double low, double high) noexcept;
 
   const PreparedTriangle& triangle_;
@@ -109,10 +111,9 @@ std::optional<TouchBounds> FirstTouch::conclude(const Reached& reached) const no
   return TouchBounds{std::max(reached.fraction, smallest), std::min(reached.fraction + more + epsilon, 1.0)};
 }
 
-/// Decides exactly, unless it is known that they touch: where the path grazes, so that steps lead nowhere or
-/// the slope drowns in rounding.
-std::optional<TouchBounds> FirstTouch::decide(const Reached& reached, bool touches) noexcept {
-  if (!touches && !comes_within(1)) return std::nullopt;
+/// Decides exactly: where the path grazes, so that steps lead nowhere or the slope drowns in rounding.
+std::optional<TouchBounds> FirstTouch::decide(const Reached& reached) noexcept {
+  if (!comes_within(1)) return std::nullopt;
   const double fraction = refine({std::max(reached.fraction, smallest), 1});
   return TouchBounds{fraction, fraction};
 }
@@ -120,10 +121,18 @@ std::optional<TouchBounds> FirstTouch::decide(const Reached& reached, bool touch
 double FirstTouch::refine(const TouchBounds& bounds) noexcept {
   constexpr double narrow = 0x1p-50;
   if (bounds.last - bounds.first < narrow) return bounds.first;
+  if (sweep_.radius == 0) return std::max(bounds.first, meeting());
   if (const std::optional<double> precise = gap_.precise_touch(bounds.first)) return *precise;
-  if (sweep_.radius > 0) return divide(bounds.first, bounds.last);
+  return divide(bounds.first, bounds.last);
+}
+
+/// Returns where a bare point meets the triangle, which it does.
+double FirstTouch::meeting() noexcept {
+  const auto& [a, b, c] = triangle_.corner;
+  const bool in_plane = side_of_plane(a, b, c, sweep_.from) == 0 && side_of_plane(a, b, c, sweep_.to) == 0;
+  if (const std::optional<double> precise = gap_.precise_meeting(in_plane)) return *precise;
   ++exact_decisions_;
-  return std::max(bounds.first, first_meeting_exactly(triangle_.corner, sweep_.from, sweep_.to));
+  return first_meeting_exactly(triangle_.corner, sweep_.from, sweep_.to);
 }
 
 /// Divides the part in which the first touch is, down to less than 2^-50 of the path: beside the places where
@@ -151,30 +160,31 @@ double FirstTouch::divide(double low, double high) noexcept {
 std::optional<TouchBounds> FirstTouch::find(double limit) noexcept {
   // Grazing makes Newton's steps halve instead of square the error: this many exhaust a double's digits.
   constexpr int max_steps = 64;
-  // A bare point is known to touch before that. These suffice where it does not graze.
-  constexpr int max_point_steps = 4;
   if (!gap_.is_defined()) return std::nullopt;
   Reached reached{0, gap_.at(0)};
-  bool touches = false;
-  if (sweep_.radius == 0 && !stays_above(0, reached, 1)) {
+  if (sweep_.radius == 0) {
+    if (stays_above(0, reached, 1) || stays_above(gap_.max_early(), reached, limit)) return std::nullopt;
     const std::optional<bool> meets = meets_by_sides(triangle_.corner, sweep_.from, sweep_.to);
     if (meets == false) return std::nullopt;
-    touches = meets.has_value();
+    if (meets) {
+      const double fraction = touches_at_start(reached.here) ? 0 : std::max(meeting(), smallest);
+      return TouchBounds{fraction, fraction};
+    }
   }
-  if (reached.here.gap <= reached.here.error && touches_at_start(reached.here)) return TouchBounds{0, 0};
-  for (int step = 0; step < (touches ? max_point_steps : max_steps); ++step) {
+  if (touches_at_start(reached.here)) return TouchBounds{0, 0};
+  for (int step = 0; step < max_steps; ++step) {
     if (reached.here.surely_rises() || stays_above(0, reached, 1) || stays_apart(reached))
       return std::nullopt;
     if (reached.fraction >= 1 && reached.here.gap > reached.here.error) return std::nullopt;
     // Up to the limit the gap is more than at the fraction told.
     if (stays_above(gap_.max_early(), reached, limit)) return std::nullopt;
     if (const std::optional<TouchBounds> bounds = conclude(reached)) return bounds;
-    if (reached.here.gap <= 2 * reached.here.error) return decide(reached, touches);
+    if (reached.here.gap <= 2 * reached.here.error) return decide(reached);
     const Reached next = advance(reached);
     if (!(next.fraction > reached.fraction)) break;
     reached = next;
   }
-  return decide(reached, touches);
+  return decide(reached);
 }
 
 }  // namespace

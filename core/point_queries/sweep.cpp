@@ -41,8 +41,8 @@ struct SweepVisitor {
 };
 
 /// A ball about the middle of a longer path meets more than the path does: more in its length, and in the
-/// radius about as much as their product.
-constexpr double max_in_leaf_radii = 0.5, max_product_in_leaf_radii = 0.25;
+/// radius about as much as their product. So it does where it is that much wider than the ball on the path.
+constexpr double max_in_leaf_radii = 0.5, max_product_in_leaf_radii = 0.25, max_in_reaches = 8;
 /// More work than this about the middle shows that leaves are long and near to one another, so that their
 /// radius misleads: the path is looked along instead.
 constexpr std::uint64_t middle_budget = 1024;
@@ -173,7 +173,7 @@ std::optional<Impact> first_hit(const Surface& surface, const Sweep& sweep, Poin
   SweepCandidates candidates(bvh, sweep.radius > bvh.mean_leaf_radius(),
                              memory.is_near() ? memory.slot : nowhere, first);
   const bool is_short =
-      length <= max_in_leaf_radii * bvh.mean_leaf_radius() &&
+      length <= max_in_reaches * reach && length <= max_in_leaf_radii * bvh.mean_leaf_radius() &&
       length * reach <= max_product_in_leaf_radii * bvh.mean_leaf_radius() * bvh.mean_leaf_radius();
   const bool done = (is_short && search_middle(bvh, sweep, length, reach, std::min(budget(), middle_budget),
                                                candidates, memory, work)) ||
