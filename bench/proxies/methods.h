@@ -41,7 +41,7 @@ struct MethodRequest {
 using MakeMethod = std::unique_ptr<ProxyMethod> (*)(const MethodRequest& request);
 
 /// Coupling::max_work where nothing else is asked for: it ends few ticks of a hand.
-inline constexpr std::uint64_t usual_max_work = 4000;
+inline constexpr std::uint64_t usual_max_work = 6000;
 
 struct MethodOption {
   std::string_view key, default_value, meaning;

@@ -30,7 +30,7 @@ constexpr touchmark::Coupling coupling{.radius = 0.005,
                                        .stiffness = 1000,
                                        .damping = 1,
                                        .tick_s = 1e-9 * proxy_period_ns,
-                                       .max_work = 4000};  // bounds a step on any mesh
+                                       .max_work = 6000};  // bounds a step on any mesh
 
 /// A square plate in the plane z = 0, in metres.
 touchmark::TriangleMesh plate() {
