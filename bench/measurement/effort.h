@@ -7,7 +7,7 @@
 namespace touchmark::bench::measurement {
 
 struct Effort {
-  std::size_t repetitions = 15;  ///< many and short, for throughput; 0: verify only
+  std::size_t repetitions = 11;  ///< many and short, for throughput; 0: verify only
   std::size_t latency_passes = 3;
   double pass_budget_ns = 50e6;  ///< a trajectory that takes longer to replay is cut to a sample of its steps
   double repetition_ns = 8e6;    ///< shorter passes are repeated until they last so long

@@ -1,6 +1,7 @@
 #include "bench/results/steps_file.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -22,7 +24,8 @@
 #include "bench/workload/query_name.h"
 #include "bench/workload/sample_steps.h"
 #include "bench/workload/workload.h"
-#include "core/geometry/point_triangle.h"
+#include "core/float_limits.h"
+#include "core/sphere_cluster/sphere_cluster.h"
 
 namespace touchmark::bench::results {
 namespace {
@@ -68,25 +71,23 @@ std::vector<std::size_t> noted_steps(const std::vector<const measurement::Result
 /// The triangles around probes, each once, with corners in the mesh's own numbers.
 class Surroundings {
  public:
-  explicit Surroundings(const TriangleMesh& mesh) : mesh_(mesh), places_(mesh.size()) {}
+  explicit Surroundings(const TriangleMesh& mesh) : places_(mesh.size()) {
+    if (mesh.size() <= max_triangles)  // where ids are places in the mesh
+      detector_.emplace(SphereCluster::build(TriangleMesh({mesh.vertices().begin(), mesh.vertices().end()},
+                                                          {mesh.triangles().begin(), mesh.triangles().end()})));
+  }
 
   /// Returns the triangles nearest to the centre, as places in triangles(): at most `triangles_around`. None
-  /// once so many triangles were looked at that a page would wait for them.
+  /// of a mesh so large that a page would wait for them.
   std::vector<std::uint32_t> around(const Vec3& center) {
-    if (!center.allFinite() || looked_at_ > max_looked_at) return {};
-    looked_at_ += mesh_.size();
-    std::vector<std::pair<double, std::uint32_t>> by_distance;
-    by_distance.reserve(mesh_.size());
-    for (std::uint32_t i = 0; i < mesh_.size(); ++i)
-      by_distance.emplace_back(squared_distance(prepare(mesh_, i), center), i);
-    const std::size_t kept = std::min(triangles_around, by_distance.size());
-    std::partial_sort(by_distance.begin(), by_distance.begin() + static_cast<std::ptrdiff_t>(kept),
-                      by_distance.end());
     std::vector<std::uint32_t> around;
-    for (std::size_t i = 0; i < kept; ++i) {
-      std::uint32_t& place = places_[by_distance[i].second];
+    if (!center.allFinite() || !detector_) return around;
+    std::array<Contact, triangles_around> near;
+    const std::size_t count = detector_->nearest_contacts({center, 0}, infinity, session_, near);
+    for (const Contact& contact : std::span(near).first(count)) {
+      std::uint32_t& place = places_[contact.triangle];
       if (place == 0) {
-        chosen_.push_back(by_distance[i].second);
+        chosen_.push_back(contact.triangle);
         place = static_cast<std::uint32_t>(chosen_.size());
       }
       around.push_back(place - 1);
@@ -99,10 +100,10 @@ class Surroundings {
 
  private:
   static constexpr std::size_t triangles_around = 48;
-  static constexpr std::size_t max_looked_at = 200'000'000;
+  static constexpr std::size_t max_triangles = 2'000'000;
 
-  const TriangleMesh& mesh_;
-  std::size_t looked_at_ = 0;
+  std::optional<SphereCluster> detector_;
+  SphereCluster::Session session_;
   std::vector<std::uint32_t> chosen_;
   std::vector<std::uint32_t>
       places_;  ///< a triangle of the mesh each: its place in chosen_, from 1; 0: not chosen

@@ -142,6 +142,7 @@ class BenchRun {
         step_outputs_(frame_.folder ? &*frame_.folder : nullptr, flags.list_tests ? "" : options.steps_out),
         workload_(workload_of(selectors_, mesh_of(selectors_), selection_, trajectories_,
                               options.quick ? 5000 : 20000)),
+        quick_(options.quick),
         shows_work_(options.work),
         wide_(options.wide) {
     frame_.description.query = selection_.queries.front();
@@ -189,8 +190,19 @@ class BenchRun {
     for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
       comparison_->begin(trace, frame_.description.query);
       save_so_far();
+      if (trace == 0 && !quick_ && workload_.traces.size() > 1) show_first_half();
     }
     for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) end_trajectory(trace);
+  }
+
+  /// Of the first trajectory, for who waits: its other half comes after the first half of all.
+  void show_first_half() {
+    const std::vector<measurement::ResultRow> rows = comparison_->so_far();
+    if (rows.empty()) return;
+    frame_.progress.clear();
+    out_.write(fmt::format("\n{}, half of its rounds\n{}", workload_.trajectories.front(),
+                           results::comparison_text(rows)));
+    out_.finish();
   }
 
   void end_trajectory(std::size_t trace) {
@@ -263,6 +275,7 @@ class BenchRun {
   workload::Workload workload_;
   std::optional<measurement::Comparison> comparison_;
   support::StandardOutput out_;
+  bool quick_;
   bool shows_work_;
   bool wide_;
   std::vector<measurement::ResultRow> rows_;
