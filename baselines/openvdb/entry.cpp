@@ -34,7 +34,7 @@ ContestantInfo openvdb_entry() {
                                            chosen(values, "contact", contacts), asking(values)};
     return contestant_of_module(module, mesh, options);
   };
-  info.load = [] { builder_of(module); };
+  comes_from_module(info, module);
   info.forms = {.verified = {"", "contact=polygon"},
                 .frontier = {"voxel=2%", "", "voxel=0.5%", "voxel=0.25%", "voxel=0.125%", "contact=polygon",
                              "voxel=0.25%,contact=polygon"},

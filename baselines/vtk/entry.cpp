@@ -30,7 +30,7 @@ ContestantInfo vtk_entry() {
                                        static_cast<std::uint32_t>(values.count("cells")), asking(values)};
     return contestant_of_module(module, mesh, options);
   };
-  info.load = [] { builder_of(module); };
+  comes_from_module(info, module);
   info.forms = {.verified = {"", "locator=implicit"}, .frontier = {"", "cells=1", "locator=implicit"}};
   return info;
 }

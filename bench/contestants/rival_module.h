@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bench/contestants/contestant.h"
+#include "bench/contestants/contestant_info.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::contestants {
@@ -13,6 +14,9 @@ namespace touchmark::bench::contestants {
 /// Loads the rival's shared object, unless it is there, and returns its function that builds a contestant.
 /// Throws std::runtime_error where it cannot be loaded.
 void* builder_of(const std::string& rival);
+
+/// Has the shared object loaded before the first build. Where there is none the rival is not built.
+void comes_from_module(ContestantInfo& info, const std::string& rival);
 
 /// Builds the rival by the options of its detector. Throws what builder_of and the detector's build throw.
 template <class Options>

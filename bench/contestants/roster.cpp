@@ -184,6 +184,14 @@ std::vector<ContestantSpec> Roster::exact_ones(std::vector<ContestantSpec> specs
   return specs;
 }
 
+const ContestantInfo& Roster::find_built(const std::string& name) const {
+  const ContestantInfo& contestant = find(name);
+  if (!contestant.built())
+    throw std::invalid_argument("it is not built; scripts/setup rivals and scripts/build-program "
+                                "touchmark-extra build all rivals");
+  return contestant;
+}
+
 void Roster::prepare_to_build(const ContestantSpec& spec, std::size_t triangles) const {
   const ContestantInfo& contestant = find(spec.name);
   contestant.load();
@@ -191,15 +199,13 @@ void Roster::prepare_to_build(const ContestantSpec& spec, std::size_t triangles)
 }
 
 std::unique_ptr<Contestant> Roster::build(const ContestantSpec& spec, const TriangleMesh& mesh) const {
-  const ContestantInfo& contestant = find(spec.name);
-  if (!contestant.built()) throw std::invalid_argument(contestant.name + " is not built into this program");
+  const ContestantInfo& contestant = find_built(spec.name);
   return contestant.build(mesh, spec.values);
 }
 
 std::unique_ptr<Contestant> Roster::build(const ContestantSpec& spec,
                                           const scenes::PlacedScene& scene) const {
-  const ContestantInfo& contestant = find(spec.name);
-  if (!contestant.built()) throw std::invalid_argument(contestant.name + " is not built into this program");
+  const ContestantInfo& contestant = find_built(spec.name);
   if (!contestant.build_scene)
     throw std::invalid_argument(
         "it is of one mesh, and takes no scene of bodies (touchmark list says who does)");

@@ -43,6 +43,8 @@ class Roster {
 
  private:
   void sort();
+  /// Throws std::invalid_argument, with the way out.
+  const ContestantInfo& find_built(const std::string& name) const;
   /// Keeps those that claim exactness and answer the query.
   std::vector<ContestantSpec> exact_ones(std::vector<ContestantSpec> specs, workload::Query query) const;
 

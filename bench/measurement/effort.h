@@ -9,7 +9,7 @@ namespace touchmark::bench::measurement {
 struct Effort {
   std::size_t repetitions = 11;  ///< many and short, for throughput; 0: verify only
   std::size_t latency_passes = 3;
-  double pass_budget_ns = 50e6;  ///< a trajectory that takes longer to replay is cut to a sample of its steps
+  double pass_budget_ns = 35e6;  ///< a trajectory that takes longer to replay is cut to a sample of its steps
   double repetition_ns = 8e6;    ///< shorter passes are repeated until they last so long
   std::size_t cold_passes = 0;   ///< that the samples are spread over; 0: caches are left alone
   double cold_budget_ns = 1e9;   ///< for all samples, besides the least number of them
