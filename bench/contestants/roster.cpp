@@ -193,7 +193,7 @@ const ContestantInfo& Roster::find_built(const std::string& name) const {
 }
 
 void Roster::prepare_to_build(const ContestantSpec& spec, std::size_t triangles) const {
-  const ContestantInfo& contestant = find(spec.name);
+  const ContestantInfo& contestant = find_built(spec.name);
   contestant.load();
   support::require_memory_for_triangles(triangles, contestant.bytes_per_triangle(spec.values));
 }
