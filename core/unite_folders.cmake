@@ -1,14 +1,14 @@
 # touchmark_unite_folders(TARGET CORE): each folder of CORE, which is core or a copy of it, is compiled as one source of
-# TARGET, in half the time.
+# TARGET, in half the time; so are the folders below core/search.
 function(touchmark_unite_folders target core)
   # Compiled by themselves: neighborhood and linear_scan since slides take fewer instructions then, the others since their
   # unnamed namespaces name things as another file's of the folder do.
-  set(apart exact/precise_closest_point field/plane_fitter geometry/path_gap
-    grid_group/grid_group scene/pose_change scene/round/round_body scene/scene_bodies scene/seen_body scene/round/support_table
-    scene/surface_list scene/near_surface scene/pose scene/round/primitives search/many/curve_order search/linear_scan search/ties/nearest_of_ties
-    search/ties/same_location bvh/build/bounding_cylinder point_queries/nearest
-    point_queries/neighborhood point_queries/touch)
-  foreach(name IN LISTS apart)
+  set(alone exact/precise_closest_point geometry/path_gap grid_group/grid_group point_queries/nearest
+    point_queries/neighborhood point_queries/touch search/linear_scan search/ties/nearest_of_ties search/ties/same_location)
+  # Compiled with each other, since their unnamed namespaces name things as another file's of their own folder do.
+  set(apart bvh/build/bounding_cylinder field/plane_fitter scene/near_surface scene/pose scene/pose_change scene/round/primitives
+    scene/round/round_body scene/round/support_table scene/scene_bodies scene/seen_body scene/surface_list search/many/curve_order)
+  foreach(name IN LISTS alone apart)
     if(NOT EXISTS ${PROJECT_SOURCE_DIR}/core/${name}.cpp)
       message(FATAL_ERROR "touchmark_unite_folders: there is no core/${name}.cpp")
     endif()
@@ -20,8 +20,12 @@ function(touchmark_unite_folders target core)
     cmake_path(RELATIVE_PATH name BASE_DIRECTORY ${core})
     cmake_path(GET name PARENT_PATH folder)
     cmake_path(REMOVE_EXTENSION name)
-    if(folder AND NOT folder MATCHES "^\\.\\." AND NOT name IN_LIST apart)
-      string(REPLACE "/" "_" folder ${folder})
+    if(EXISTS ${core}/${name}.cpp AND NOT folder MATCHES "^\\.\\." AND NOT name IN_LIST alone)
+      if(name IN_LIST apart)
+        set(folder apart)
+      endif()
+      string(REGEX REPLACE "^search/.*" "search" folder "${folder}")
+      string(REPLACE "/" "_" folder "${folder}")
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP core_${folder})
     endif()
   endforeach()

@@ -100,8 +100,8 @@ class Contestant {
   /// Asks the steps that the pacer names, each clocked. Prepares once the pacer has let it go, before the
   /// clock is read: where a loop prepares just before it reads its device.
   virtual void replay_paced(const workload::QueryTrace& trace, StepPacer& pacer) noexcept = 0;
-  /// Asks nearest_many, with what it keeps from call to call until forget(). Needs answers(Query::nearest).
-  /// Throws what that throws.
+  /// Asks nearest_many, with what it keeps from call to call until forget(). Needs answers(Query::nearest)
+  /// and a mesh, not a scene. Throws what that throws.
   virtual void nearest_many(std::span<const Vec3> points, double reach,
                             std::span<std::optional<Contact>> answers, const ManyOptions& options) = 0;
   /// Returns true if the detector prepares after each step. That is in all other times, and in the work.

@@ -43,15 +43,6 @@ std::vector<workload::Query> queries_of() {
   return queries;
 }
 
-template <Detector D>
-struct SessionsOfMany {
-  struct Type {};
-};
-template <AnswersNearest D>
-struct SessionsOfMany<D> {
-  using Type = ManySessions<D>;
-};
-
 /// A detector whose type declares more than it does, as one that is known only once it is loaded: it says
 /// what it answers and whether it updates, and makes the sessions that belong to it.
 template <class D>
@@ -68,6 +59,19 @@ concept StandsInSchedules = requires(D& detector, const scenes::ScheduleView* sc
                                      const typename D::Session& session) {
   { detector.stand_at(schedule, std::size_t{}) } -> std::same_as<bool>;
   { session.body } -> std::same_as<const std::uint32_t&>;
+};
+
+/// Many points are asked of a mesh, and never of a scene.
+template <class D>
+concept AnswersMany = AnswersNearest<D> && !StandsInSchedules<D>;
+
+template <Detector D>
+struct SessionsOfMany {
+  struct Type {};
+};
+template <AnswersMany D>
+struct SessionsOfMany<D> {
+  using Type = ManySessions<D>;
 };
 
 /// Whether a detector's `prepare` is called after each answer.
@@ -116,7 +120,7 @@ class ContestantOf final : public Contestant {
   }
   void forget() override {
     begin_session();
-    if constexpr (AnswersNearest<D>) {
+    if constexpr (AnswersMany<D>) {
       if (many_) many_->forget();
     }
   }
@@ -235,11 +239,11 @@ class ContestantOf final : public Contestant {
   void nearest_many([[maybe_unused]] std::span<const Vec3> points, [[maybe_unused]] double reach,
                     [[maybe_unused]] std::span<std::optional<Contact>> answers,
                     [[maybe_unused]] const ManyOptions& options) override {
-    if constexpr (AnswersNearest<D>) {
+    if constexpr (AnswersMany<D>) {
       if (!many_) many_ = std::make_unique<ManySessions<D>>();
       touchmark::nearest_many(*detector_, points, reach, answers, *many_, options);
     } else {
-      assert(!"the detector must answer nearest");
+      assert(!"the detector must answer nearest, and stand on a mesh");
     }
   }
 

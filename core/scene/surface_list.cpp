@@ -13,7 +13,7 @@
 namespace touchmark {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float float_infinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
 }  // namespace touchmark
@@ -75,7 +75,7 @@ bool SurfaceList::add(std::uint32_t body, const SeenBody& seen, const TriangleMe
     turn(count_, seen.pose());
   }
   for (std::uint32_t i = count_; i % 8 != 0; ++i) {
-    plane_.bound[i] = infinity;
+    plane_.bound[i] = float_infinity;
     plane_.x[i] = plane_.y[i] = plane_.z[i] = 0;
   }
   leave_out(covered);
@@ -123,7 +123,7 @@ bool SurfaceList::may_be_within(std::uint32_t place, const Move& move, double li
 
 double SurfaceList::clearance(const Move& move) const noexcept {
   const Lanes x = broadcast(move.x), y = broadcast(move.y), z = broadcast(move.z);
-  Lanes least = broadcast(infinity);
+  Lanes least = broadcast(float_infinity);
   for (std::uint32_t i = 0; i < count_; i += 4)
     least = simd::min(least, load(&plane_.bound[i]) + x * load(&plane_.x[i]) + y * load(&plane_.y[i]) +
                                  z * load(&plane_.z[i]));

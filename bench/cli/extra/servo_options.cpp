@@ -27,7 +27,7 @@ namespace servo = experiments::servo;
 
 namespace {
 
-constexpr double max_rate_hz = 100'000;
+constexpr double max_servo_rate_hz = 100'000;
 constexpr double max_s = 1e6;
 
 /// Returns the load of this name; without a name that on memory, where another core can carry it.
@@ -80,8 +80,8 @@ int checked_core(const ServoOptions& options) {
 
 servo::ServoSettings checked_settings(const ServoOptions& options, int core) {
   servo::ServoSettings settings;
-  settings.rate_hz =
-      support::checked_number("--rate", options.selectors.motion.rate, support::Zero::refused, max_rate_hz);
+  settings.rate_hz = support::checked_number("--rate", options.selectors.motion.rate, support::Zero::refused,
+                                             max_servo_rate_hz);
   const double seconds = support::checked_number("--seconds", options.seconds, support::Zero::refused, max_s);
   settings.evicts = options.evict;
   settings.ticks =
