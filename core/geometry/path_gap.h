@@ -51,7 +51,8 @@ class PathGap {
   bool stays_apart(double fraction, const Sample& there, double end) const noexcept;
 
   /// Returns a fraction that is not later than a ball's first touch, and earlier by less than 2^-50. Nothing
-  /// where double-doubles do not tell it. The path touches, and not before `fraction`: docs/exactness.md, E16.
+  /// where double-doubles do not tell it. The path touches, and not before `fraction`: docs/exactness.md,
+  /// E16.
   std::optional<double> precise_touch(double fraction) const noexcept;
   /// Likewise of a bare point that meets the triangle, not at its start; is all of its path exactly in the
   /// triangle's plane?

@@ -195,7 +195,7 @@ class BenchRun {
     for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) end_trajectory(trace);
   }
 
-  /// Of the first trajectory, for who waits: its other half comes after the first half of all.
+  /// Shows the first trajectory to who waits: its other half comes after the first half of all.
   void show_first_half() {
     const std::vector<measurement::ResultRow> rows = comparison_->so_far();
     if (rows.empty()) return;
