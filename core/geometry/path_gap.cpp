@@ -35,8 +35,8 @@ double first_root(double value, double fall, double curve, double raised) noexce
   return value / (fall + std::sqrt(root));
 }
 
-/// Returns where a linear function is zero that is `start` at 0 and `end` at 1, each off by less than `error`:
-/// early by less than 2^-50, or nothing where that is not known.
+/// Returns where a linear function is zero that is `start` at 0 and `end` at 1, each off by less than
+/// `error`: early by less than 2^-50, or nothing where that is not known.
 std::optional<double> first_zero(DoubleDouble start, DoubleDouble end, double error) noexcept {
   constexpr double narrow = 0x1p-52;
   const DoubleDouble change = start - end;
