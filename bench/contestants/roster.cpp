@@ -187,8 +187,9 @@ std::vector<ContestantSpec> Roster::exact_ones(std::vector<ContestantSpec> specs
 const ContestantInfo& Roster::find_built(const std::string& name) const {
   const ContestantInfo& contestant = find(name);
   if (!contestant.built())
-    throw std::invalid_argument("it is not built; scripts/setup rivals and scripts/build-program "
-                                "touchmark-extra build all rivals");
+    throw std::invalid_argument(
+        "it is not built; scripts/setup rivals and scripts/build-program "
+        "touchmark-extra build all rivals");
   return contestant;
 }
 

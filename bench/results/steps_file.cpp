@@ -73,8 +73,9 @@ class Surroundings {
  public:
   explicit Surroundings(const TriangleMesh& mesh) : places_(mesh.size()) {
     if (mesh.size() <= max_triangles)  // where ids are places in the mesh
-      detector_.emplace(SphereCluster::build(TriangleMesh({mesh.vertices().begin(), mesh.vertices().end()},
-                                                          {mesh.triangles().begin(), mesh.triangles().end()})));
+      detector_.emplace(
+          SphereCluster::build(TriangleMesh({mesh.vertices().begin(), mesh.vertices().end()},
+                                            {mesh.triangles().begin(), mesh.triangles().end()})));
   }
 
   /// Returns the triangles nearest to the centre, as places in triangles(): at most `triangles_around`. None
