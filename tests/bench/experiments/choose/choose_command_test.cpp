@@ -56,7 +56,7 @@ TEST_F(Choose, RecommendsOneThatIsRightAndPrintsItsCode) {
 TEST_F(Choose, OfAProxyPrintsAClassThatStepsItWithinABound) {
   const Outcome outcome = choose({"--trajectory", "slide", "--proxy"});
   ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find(".max_work = 4000"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find(".max_work = 6000"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("proxy_.step(hand, session_)"), std::string::npos) << outcome.out;
   const Fields detectors = column("detector");
   EXPECT_EQ(std::find(detectors.begin(), detectors.end(), "aabb-tree"), detectors.end());
