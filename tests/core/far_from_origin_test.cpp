@@ -139,6 +139,39 @@ TEST_P(FarFromOrigin, EveryFormAnswersAsBruteForce) {
   expect_of_built_and_updated<PublishedSphereCluster>(mesh, {}, "spheres as published");
 }
 
+/// Doubles are a quarter apart, so a path of a few of them has no middle. A ball that comes down on a plane
+/// of wide triangles just reaches it, or does not.
+TEST(SweepFarAway, MeetsWhatOnlyTheEndOfAShortPathReaches) {
+  constexpr double far = 0x1p50, step = 0.25;
+  std::vector<Vec3> vertices;
+  std::vector<TriangleMesh::Corners> triangles;
+  for (std::uint32_t i = 0; i < 25; ++i) vertices.emplace_back(far + 512 * (i % 5), far + 512 * (i / 5), far);
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    if (i % 5 == 4) continue;
+    triangles.push_back({i, i + 1, i + 5});
+    triangles.push_back({i + 1, i + 6, i + 5});
+  }
+  const TriangleMesh mesh(vertices, triangles);
+  const SphereCluster clusters = SphereCluster::build(mesh);
+  const AabbTree tree = AabbTree::build(mesh);
+  Random random(5);
+  int hits = 0, passes = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto steps = [&](std::uint64_t below) { return step * static_cast<double>(random.below(below)); };
+    const double radius = step + steps(4), way = step + steps(5), above = radius + steps(6);
+    const double x = far + 300 + steps(4000), y = far + 300 + steps(4000);
+    const Sweep sweep{{x, y, far + above}, {x + steps(3), y, far + above - way}, radius};
+    const bool meets = above - way <= radius;
+    AabbTree::Session in_tree;
+    SphereCluster::Session in_clusters;
+    ASSERT_EQ(clusters.first_hit(sweep, in_clusters).has_value(), meets) << i;
+    ASSERT_EQ(tree.first_hit(sweep, in_tree).has_value(), meets) << i;
+    ++(meets ? hits : passes);
+  }
+  EXPECT_GT(hits, 500);
+  EXPECT_GT(passes, 100);
+}
+
 INSTANTIATE_TEST_SUITE_P(PowersOfTwo, FarFromOrigin, testing::Values(27, 31, 34, 42, 50, 52));
 
 }  // namespace
