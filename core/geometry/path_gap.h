@@ -54,8 +54,8 @@ class PathGap {
   /// where double-doubles do not tell it. The path touches, and not before `fraction`: docs/exactness.md,
   /// E16.
   std::optional<double> precise_touch(double fraction) const noexcept;
-  /// Likewise of a bare point that meets the triangle, not at its start; is all of its path exactly in the
-  /// triangle's plane?
+  /// Likewise of a bare point that meets the triangle, not at its start. `in_plane` says that all of its path
+  /// is exactly in the triangle's plane.
   std::optional<double> precise_meeting(bool in_plane) const noexcept;
 
   /// Returns where the ball touches the plane, the lines and the points of the triangle's features after

@@ -200,9 +200,12 @@ class BenchRun {
     const std::vector<measurement::ResultRow> rows = comparison_->so_far();
     if (rows.empty()) return;
     frame_.progress.clear();
-    out_.write(fmt::format("\n{}, half of its rounds\n{}", workload_.trajectories.front(),
-                           results::comparison_text(rows)));
+    out_.write(fmt::format("\n{}, half of its rounds\n{}", workload_.trajectories.front(), table_of(rows)));
     out_.finish();
+  }
+
+  std::string table_of(const std::vector<measurement::ResultRow>& rows) const {
+    return wide_ ? results::timing_table(rows).text() : results::comparison_text(rows);
   }
 
   void end_trajectory(std::size_t trace) {
@@ -217,8 +220,7 @@ class BenchRun {
         fmt::format("{} ({})", workload_.trajectories[trace], workload::trace_text(workload_, trace));
     const std::string verdict = results::verdict(rows, comparison_->steadiness().back());
     reports_.add_trajectory(title, rows, verdict);
-    const std::string table = wide_ ? results::timing_table(rows).text() : results::comparison_text(rows);
-    out_.write(fmt::format("\n{}\n{}{}", title, table, verdict));
+    out_.write(fmt::format("\n{}\n{}{}", title, table_of(rows), verdict));
     const std::string cold = results::cold_table(rows);
     if (!cold.empty()) out_.write('\n' + cold);
     const std::string lines = results::lines_table(rows);
