@@ -235,14 +235,14 @@ PathGap::Approach PathGap::approach_to(Nearest feature, double fraction) const n
   const std::size_t i = feature.first;
   const auto& [a, b, c] = triangle_.corner;
   const Vec3& corner = triangle_.corner[i];
-  DoubleDoubles offset =
-      loose_sum(difference(sweep_.from, corner), fraction, difference(sweep_.to, sweep_.from));
+  const DoubleDoubles path = difference(sweep_.to, sweep_.from);
+  DoubleDoubles offset = loose_sum(difference(sweep_.from, corner), fraction, path);
   if (feature.corners == 3) {
     const DoubleDoubles normal = cross(difference(b, a), difference(c, a));
     const DoubleDouble height = loose_dot(normal, offset), length = square_root(loose_dot(normal, normal));
     const double value = ((height.high < 0 ? -height : height) - length * DoubleDouble{radius_}).rounded();
-    const double fall = (height.high < 0 ? 0.5 : -0.5) * rounded(normal).dot(path_);
-    const double fall_error = length_ * (8 * unit_roundoff * length.high + 0x1p-94 * size_ * size_);
+    const double fall = (height.high < 0 ? 0.5 : -0.5) * loose_dot(normal, path).rounded();
+    const double fall_error = 8 * unit_roundoff * std::abs(fall) + 0x1p-94 * size_ * size_ * length_;
     return {value, 0x1p-89 * size_ * size_ * size_, fall, fall_error, 0};
   }
   Vec3 across = path_;
@@ -254,6 +254,21 @@ PathGap::Approach PathGap::approach_to(Nearest feature, double fraction) const n
   const double value = (loose_dot(offset, offset) - two_product(radius_, radius_)).rounded(),
                square = size_ * size_;
   return {value, 0x1p-91 * square, -rounded(offset).dot(path_), error_ * length_, across.squaredNorm()};
+}
+
+/// As above for an edge or a corner, times the edge's squared length, all in double-double: right where the
+/// path is nearly parallel to the edge, or where the ball is tiny.
+PathGap::Approach PathGap::careful_approach_to(Nearest feature, double fraction) const noexcept {
+  const Vec3& corner = triangle_.corner[feature.first];
+  const DoubleDoubles path = difference(sweep_.to, sweep_.from),
+                      offset = loose_sum(difference(sweep_.from, corner), fraction, path),
+                      edge = difference(triangle_.corner[(feature.first + 1) % 3], corner);
+  const bool of_corner = feature.corners == 1;
+  const DoubleDoubles from = of_corner ? offset : cross(offset, edge),
+                      rate = of_corner ? path : cross(path, edge);
+  const DoubleDouble scale = of_corner ? DoubleDouble{1} : loose_dot(edge, edge);
+  return {(loose_dot(from, from) - two_product(radius_, radius_) * scale).rounded(), 0,
+          -loose_dot(from, rate).rounded(), 0, loose_dot(rate, rate).rounded()};
 }
 
 template <class Result, class Argument>
@@ -324,8 +339,11 @@ std::array<double, 7> PathGap::possible_touches(double fraction) const noexcept 
   touches.fill(fraction);
   for (std::size_t i = 0; i < touches.size(); ++i)
     for (int step = 0; step < steps; ++step) {
-      const Approach to = approach_to(i == 6 ? Nearest{3, 0} : Nearest{i < 3 ? 2 : 1, i % 3}, touches[i]);
-      touches[i] += first_root(to.value, to.fall, to.curve, 0);
+      const Approach to =
+          i == 6 ? approach_to({3, 0}, touches[i]) : careful_approach_to({i < 3 ? 2 : 1, i % 3}, touches[i]);
+      const double root = first_root(to.value, to.fall, to.curve, 0);
+      // A path that grazes may seem to pass: from where it is nearest the next step tells more.
+      touches[i] += std::isinf(root) && to.curve > 0 ? to.fall / to.curve : root;
     }
   return touches;
 }

@@ -97,6 +97,7 @@ class PathGap {
   bool is_nearest(Nearest feature, const Corners& to) const noexcept;
   std::optional<Nearest> nearest_feature(const Corners& to) const noexcept;
   Approach approach_to(Nearest feature, double fraction) const noexcept;
+  Approach careful_approach_to(Nearest feature, double fraction) const noexcept;
 
   const PreparedTriangle& triangle_;
   const Sweep& sweep_;

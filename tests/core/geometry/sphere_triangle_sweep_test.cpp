@@ -175,6 +175,35 @@ TEST(SphereTriangleSweep, ABarePointOnASmallGridIsToldWhereItMeetsATriangleByAtM
   EXPECT_GT(hits, 500);
 }
 
+/// Where rounding hides that a ball along an edge comes near enough at all, halving took 54.
+TEST(SphereTriangleSweep, ABallAlongAnEdgeIsToldWhereItTouchesByFewExactDecisions) {
+  RandomCases random(5);
+  int hits = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const PreparedTriangle t = random.triangle();
+    const Vec3 edge = t.corner[1] - t.corner[0], third = (t.corner[0] + t.corner[1] + t.corner[2]) / 3;
+    const Vec3 from = trial % 2 == 0 ? Vec3(t.corner[0] - 0.5 * edge) : Vec3(third + random.point());
+    const double distance = contact_on(t, from, 0).distance;
+    const double radius =
+        trial % 3 == 0 ? std::ldexp(0.5, -(trial % 40)) : distance * (1 + random.coordinate() * 0x1p-48);
+    const Sweep sweep{from, trial % 5 == 0 ? t.corner[1] : Vec3(from + 2 * edge), radius};
+    std::uint64_t decisions = 0;
+    const auto bounds = touch_bounds(t, sweep, 1, decisions);
+    if (!bounds) continue;
+    touch_fraction(t, sweep, *bounds, decisions);
+    ASSERT_LE(decisions, 9U) << trial;
+    ++hits;
+  }
+  EXPECT_GT(hits, 5000);
+
+  // Found by fuzzing: 248 decisions on numbers of 2,000 bits kept a detector busy for a second.
+  const PreparedTriangle t = prepare({0, 1e-24, 0}, {1e-12, -2e-9, 1e-9}, {1e-14, 4e-9, 1}, 0);
+  const Vec3 two_thirds = (t.corner[0] + t.corner[1] + t.corner[1]) / 3;
+  std::uint64_t decisions = 0;
+  EXPECT_TRUE(touch_bounds(t, {two_thirds, t.corner[1], 5e-324}, 1, decisions));
+  EXPECT_LE(decisions, 9U);
+}
+
 TEST(SphereTriangleSweep, NotANumberHitsNothing) {
   const double nan = std::nan("");
   EXPECT_FALSE(sweep_hit(triangle, {{nan, 0, 0}, {1, 1, 1}, 1}, 1));
