@@ -359,6 +359,7 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, Conformance, testing::ValuesIn(conformance_meshes()), test_name);
+INSTANTIATE_TEST_SUITE_P(Resized, Conformance, testing::ValuesIn(resized_meshes()), test_name);
 
 }  // namespace
 }  // namespace touchmark::bench

@@ -105,6 +105,7 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, Sessions, testing::ValuesIn(conformance_meshes()), test_name);
+INSTANTIATE_TEST_SUITE_P(Resized, Sessions, testing::ValuesIn(resized_meshes()), test_name);
 
 }  // namespace
 }  // namespace touchmark
