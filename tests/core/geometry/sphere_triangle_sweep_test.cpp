@@ -175,7 +175,7 @@ TEST(SphereTriangleSweep, ABarePointOnASmallGridIsToldWhereItMeetsATriangleByAtM
   EXPECT_GT(hits, 500);
 }
 
-/// Where rounding hides that a ball along an edge comes near enough at all, halving took 54.
+/// Halving took 54 decisions where rounding hides that a ball along an edge comes near enough to touch.
 TEST(SphereTriangleSweep, ABallAlongAnEdgeIsToldWhereItTouchesByFewExactDecisions) {
   RandomCases random(5);
   int hits = 0;
