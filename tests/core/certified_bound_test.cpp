@@ -25,10 +25,8 @@ namespace {
 
 using bench::experiments::stress::mesh_of;
 
-constexpr double unit_roundoff = 0x1p-53;
-
 /// |d - d*| / (u M).
-double error_in_roundings(const CornerCase& c) {
+double error_of_the_scan(const CornerCase& c) {
   const PreparedTriangle triangle = prepare(c.triangle[0], c.triangle[1], c.triangle[2], 0);
   Aabb bounds;
   for (const Vec3& corner : c.triangle) bounds.extend(corner);
@@ -60,10 +58,10 @@ TEST_P(CertifiedBound, IsKeptEvenUphill) {
   double worst = 0;
   for (int climb = 0; climb < climbs; ++climb) {
     CornerCase at = placed(GetParam(), cases, climb);
-    double height = error_in_roundings(at);
+    double height = error_of_the_scan(at);
     for (int step = 0; step < steps; ++step) {
       const CornerCase next = nudged(at, cases);
-      const double error = error_in_roundings(next);
+      const double error = error_of_the_scan(next);
       ASSERT_LE(error, 16) << "climb " << climb << ", step " << step;
       if (error < height) continue;
       height = error;
@@ -71,7 +69,7 @@ TEST_P(CertifiedBound, IsKeptEvenUphill) {
     }
     worst = std::max(worst, height);
   }
-  RecordProperty("worst_error_in_roundings", std::to_string(worst));
+  RecordProperty("worst_error_of_the_scan", std::to_string(worst));
 }
 
 /// Two triangles exactly as far from a centre, on its diagonal: the coordinates of the one are those of the

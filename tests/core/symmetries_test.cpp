@@ -23,8 +23,6 @@
 namespace touchmark {
 namespace {
 
-constexpr double unit_roundoff = 0x1p-53;
-
 /// A mesh and probes whose radii are at the distance, beside it, and far from it.
 struct AskedMesh {
   std::string name;

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/support/files/csv_reader.h"
+#include "tests/bench/cli/csv_fields.h"
 #include "tests/bench/cli/run_touchmark.h"
 
 namespace touchmark::bench::cli {
@@ -17,19 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using Row = std::map<std::string, std::string>;
-
-std::vector<Row> rows_of(const std::string& path) {
-  support::CsvReader reader(path);
-  std::vector<std::string> header, fields;
-  reader.next(header);
-  std::vector<Row> rows;
-  while (reader.next(fields)) {
-    Row& row = rows.emplace_back();
-    for (std::size_t i = 0; i < header.size(); ++i) row[header[i]] = fields.at(i);
-  }
-  return rows;
-}
 
 std::vector<std::string> ids_in(const Json& manifest) {
   std::vector<std::string> ids;

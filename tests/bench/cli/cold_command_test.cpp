@@ -1,24 +1,20 @@
 /// What `touchmark bench` does with emptied caches, from the outside. No time is demanded of this machine.
-#include <map>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
-#include "bench/support/files/csv_reader.h"
+#include "tests/bench/cli/csv_fields.h"
 #include "tests/bench/cli/run_touchmark.h"
 #include "tests/temporary_folder.h"
 
 namespace touchmark::bench::cli {
 namespace {
 
-using Fields = std::vector<std::string>;
-
 const Fields cold_columns{"cold_l2_ns_p50", "cold_l2_ns_p99", "cold_l2_ns_p999", "cold_ns_p50",
                           "cold_ns_p99",    "cold_ns_max",    "cold_samples",    "cold_l2_samples"};
 
-/// The first row of what `bench` with these options leaves, as a map from column to field.
-std::map<std::string, std::string> first_row(const Fields& more, Outcome& outcome) {
+/// The first row of what `bench` with these options leaves.
+Row first_row(const Fields& more, Outcome& outcome) {
   const TemporaryFolder folder;
   Fields command{"bench",   "--mesh", "icosphere:2", "--trajectory", "slide", "--quick",
                  "--steps", "300",    "--detector",  "aabb-tree",    "--out", folder.file("out")};
@@ -26,13 +22,7 @@ std::map<std::string, std::string> first_row(const Fields& more, Outcome& outcom
   outcome = run_touchmark(command);
   EXPECT_EQ(run_touchmark({"validate", folder.file("out")}).status, 0)
       << run_touchmark({"validate", folder.file("out")}).out;
-  support::CsvReader reader(folder.file("out/results.csv"));
-  Fields header, fields;
-  reader.next(header);
-  reader.next(fields);
-  std::map<std::string, std::string> row;
-  for (std::size_t i = 0; i < header.size(); ++i) row[header[i]] = fields.at(i);
-  return row;
+  return rows_of(folder.file("out/results.csv")).at(0);
 }
 
 TEST(Cold, FillsItsColumnsAndPrintsTheFloor) {

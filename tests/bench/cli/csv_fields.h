@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,20 @@
 namespace touchmark::bench::cli {
 
 using Fields = std::vector<std::string>;
+using Row = std::map<std::string, std::string>;
+
+/// Each record, from column to field.
+inline std::vector<Row> rows_of(const std::string& path) {
+  support::CsvReader reader(path);
+  Fields header, fields;
+  reader.next(header);
+  std::vector<Row> rows;
+  while (reader.next(fields)) {
+    Row& row = rows.emplace_back();
+    for (std::size_t i = 0; i < header.size(); ++i) row[header[i]] = fields.at(i);
+  }
+  return rows;
+}
 
 /// Each record's fields of these columns, which must be there.
 inline std::vector<Fields> fields_in(const std::string& path, const Fields& columns) {

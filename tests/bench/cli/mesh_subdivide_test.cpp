@@ -160,15 +160,15 @@ TEST(MeshSubdivide, ShowsAnExample) {
 TEST(MeshSubdivide, MakesThePapersCounts) {
   const std::filesystem::path bunny = std::filesystem::path(TOUCHMARK_SHARED_MODELS) / "bunny-902.ply";
   if (!std::filesystem::exists(bunny)) GTEST_SKIP() << bunny << " is not there";
-  struct Row {
+  struct Counts {
     const char* method;
     std::array<std::size_t, 3> triangles;
   };
   const TemporaryFolder folder;
-  for (const Row& row :
-       {Row{"butterfly", {3580, 13620, 41768}}, Row{"catmull-clark-linear", {5412, 21648, 86592}},
-        Row{"mid-point", {3580, 13590, 41120}}, Row{"loop", {3580, 13600, 38444}},
-        Row{"ls3", {3580, 13668, 40730}}}) {
+  for (const Counts& row :
+       {Counts{"butterfly", {3580, 13620, 41768}}, Counts{"catmull-clark-linear", {5412, 21648, 86592}},
+        Counts{"mid-point", {3580, 13590, 41120}}, Counts{"loop", {3580, 13600, 38444}},
+        Counts{"ls3", {3580, 13668, 40730}}}) {
     for (std::size_t level = 1; level <= 3; ++level) {
       const std::string output = folder.file("fine.ply");
       const Outcome outcome =

@@ -19,7 +19,7 @@
 namespace touchmark::bench::cli {
 namespace {
 
-const std::string hostile = TOUCHMARK_HOSTILE_PROGRAM;
+const std::string hostile_program = TOUCHMARK_HOSTILE_PROGRAM;
 const std::string small_verify =
     " verify --mesh noisy-sphere:500 --trajectory slide --steps 50 --query nearest --detector ";
 
@@ -38,7 +38,7 @@ bool says_that_some_were_judged(const std::string& text) {
 }
 
 Outcome run_hostile(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), hostile);
+  arguments.insert(arguments.begin(), hostile_program);
   return run_program_at(arguments);
 }
 
@@ -170,8 +170,8 @@ TEST(Bench, AKilledWorkerIsAFailureOfOneThatClaimsExactness) {
   const TemporaryFolder folder;
   const std::string mark = folder.file("mark");
   ::setenv("TOUCHMARK_TEST_COUNTER", mark.c_str(), 1);
-  const ChildProgram child({hostile, "bench", "--mesh", "cube", "--steps", "20", "--quick", "--no-cold",
-                            "--trajectory", "slide", "--detector", "stalls", "--timeout", "60"});
+  const ChildProgram child({hostile_program, "bench", "--mesh", "cube", "--steps", "20", "--quick",
+                            "--no-cold", "--trajectory", "slide", "--detector", "stalls", "--timeout", "60"});
   for (int i = 0; i < 1200 && content_of(mark).empty(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   const std::vector<int> workers = children_of(child.id());
@@ -223,7 +223,7 @@ TEST(WrongAnswers, AreToldWithTheCommandsThatRepeatThem) {
         "to triangle ");
     std::vector<std::smatch> steps;
     for (std::sregex_iterator i(text.begin(), text.end(), wrong), end; i != end; ++i) steps.push_back(*i);
-    const std::vector<std::string> commands = commands_in(text, hostile);
+    const std::vector<std::string> commands = commands_in(text, hostile_program);
     ASSERT_EQ(steps.size(), 3U) << text;
     ASSERT_EQ(commands.size(), 3U) << text;
     for (std::size_t i = 0; i < steps.size(); ++i) {

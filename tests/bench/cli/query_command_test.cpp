@@ -12,7 +12,7 @@
 namespace touchmark::bench::cli {
 namespace {
 
-const std::string header =
+const std::string row_header =
     "step,touching,triangle,distance,point_x,point_y,point_z,normal_x,normal_y,normal_z";
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -51,7 +51,7 @@ TEST(QueryCommand, AnswersEveryStepOfACsvFile) {
   EXPECT_EQ(outcome.err, "");
   const std::vector<std::string> lines = lines_of(outcome.out);
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
-  EXPECT_EQ(lines[0], header);
+  EXPECT_EQ(lines[0], row_header);
   EXPECT_EQ(lines[1], "0,1,2,0.5,0.25,0,0.5,0,0,1");  // the first of the top's two triangles
   EXPECT_EQ(lines[2], "1,0,,,,,,,,");
 }
@@ -82,7 +82,7 @@ TEST(QueryCommand, TouchesSaysYesOrNo) {
   const std::string path = folder.file("path.csv", above_cube);
   const Outcome outcome =
       run_touchmark(query({"--mesh", "cube", "--trajectory", path, "--radius", "0.5", "--query", "touches"}));
-  EXPECT_EQ(outcome.out, header + "\n0,1,,,,,,,,\n1,0,,,,,,,,\n");
+  EXPECT_EQ(outcome.out, row_header + "\n0,1,,,,,,,,\n1,0,,,,,,,,\n");
 }
 
 TEST(QueryCommand, SweepAppendsTheFractionOfTheWay) {
@@ -92,7 +92,7 @@ TEST(QueryCommand, SweepAppendsTheFractionOfTheWay) {
       run_touchmark(query({"--mesh", "cube", "--trajectory", path, "--radius", "0", "--query", "sweep"}));
   const std::vector<std::string> lines = lines_of(outcome.out);
   ASSERT_EQ(lines.size(), 3u) << outcome.err;
-  EXPECT_EQ(lines[0], header + ",fraction");
+  EXPECT_EQ(lines[0], row_header + ",fraction");
   EXPECT_EQ(lines[1], "0,0,,,,,,,,,");
   const std::vector<std::string> cells = cells_of(lines[2]);
   ASSERT_EQ(cells.size(), 11u) << lines[2];
@@ -113,7 +113,7 @@ TEST(QueryCommand, TellsTheSideInALastColumnWhereTheContestantIsAskedForIt) {
       {"query", "--detector", "grid-group:side=on", "--mesh", "cube", "--trajectory", path, "--reach", "1"});
   const std::vector<std::string> lines = lines_of(outcome.out);
   ASSERT_EQ(lines.size(), 5u) << outcome.err;
-  EXPECT_EQ(lines[0], header + ",side");
+  EXPECT_EQ(lines[0], row_header + ",side");
   EXPECT_EQ(cells_of(lines[1]).at(10), "inside");
   EXPECT_EQ(cells_of(lines[2]).at(10), "outside");
   EXPECT_EQ(cells_of(lines[3]).at(10), "on_surface");
@@ -187,7 +187,7 @@ TEST(QueryCommand, AReaderThatLeavesIsNoError) {
                               folder.file("err") + "'; echo $? > '" + folder.file("status") +
                               "'; } | head -n 1 > '" + folder.file("out") + "'";
   ASSERT_EQ(std::system(command.c_str()), 0);  // NOLINT(cert-env33-c): a pipe is what is tested
-  EXPECT_EQ(content_of(folder.file("out")), header + "\n");
+  EXPECT_EQ(content_of(folder.file("out")), row_header + "\n");
   EXPECT_EQ(content_of(folder.file("status")), "0\n");
   EXPECT_EQ(content_of(folder.file("err")), "");
 }

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "bench/trajectories/trajectories.h"
-#include "core/aabb_tree/aabb_tree.h"
 #include "core/float_limits.h"
+#include "tests/bench/trajectories/distances.h"
 #include "tests/bench/trajectories/hand_measures.h"
 #include "tests/bench/trajectories/simple_meshes.h"
 
@@ -30,17 +30,6 @@ Way on_a_plate(const std::string& words, std::size_t steps, std::uint64_t seed =
   for (Vec3& position : way) position *= 1e5 / mesh.diagonal();
   return way;
 }
-
-std::vector<double> distances(const std::vector<Vec3>& way, const TriangleMesh& mesh) {
-  const AabbTree detector = AabbTree::build(mesh);
-  AabbTree::Session session;
-  std::vector<double> all;
-  for (const Vec3& p : way) all.push_back(detector.nearest({p, 0}, infinity, session)->distance);
-  return all;
-}
-
-double least(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
-double most(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 
 /// A recording of ../shared/motions, turned so that z is along the paper's normal. Millimetres.
 Way recorded(const std::filesystem::path& file) {

@@ -8,8 +8,8 @@
 
 #include "bench/support/random.h"
 #include "bench/trajectories/mesh_edges.h"
-#include "core/aabb_tree/aabb_tree.h"
 #include "core/float_limits.h"
+#include "tests/bench/trajectories/distances.h"
 #include "tests/bench/trajectories/simple_meshes.h"
 
 namespace touchmark::bench::trajectories {
@@ -53,14 +53,6 @@ TriangleMesh doubled() {
   return TriangleMesh({once.vertices().begin(), once.vertices().end()}, twice);
 }
 
-std::vector<double> distances(const Trajectory& path, const TriangleMesh& mesh) {
-  const AabbTree detector = AabbTree::build(mesh);
-  AabbTree::Session session;
-  std::vector<double> all;
-  for (const Vec3& p : path.positions) all.push_back(detector.nearest({p, 0}, infinity, session)->distance);
-  return all;
-}
-
 std::vector<double> step_lengths(const Trajectory& path) {
   std::vector<double> all;
   for (std::size_t i = 1; i < path.size(); ++i)
@@ -68,8 +60,6 @@ std::vector<double> step_lengths(const Trajectory& path) {
   return all;
 }
 
-double least(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
-double most(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
                    values.end());

@@ -5,26 +5,24 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "bench/workload/answer.h"
 #include "core/brute_force/brute_force.h"
 #include "core/float_limits.h"
 #include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/core/same_contact.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 
 namespace touchmark {
 namespace {
 
 using Field = CertifiedField<SphereCluster>;
-using bench::workload::Answer;
+using test::same_bits;
 
 static_assert(AnswersTouches<Field> && AnswersNearest<Field>);
 
@@ -34,11 +32,6 @@ Field::Options with(double error, double band, bool refines = false) {
   options.band = band;
   options.refines = refines;
   return options;
-}
-
-bool same_bits(const std::optional<Contact>& a, const std::optional<Contact>& b) {
-  const Answer left = a ? Answer::of(*a) : Answer{}, right = b ? Answer::of(*b) : Answer{};
-  return std::memcmp(&left, &right, sizeof left) == 0;
 }
 
 /// A needle that stands on a plate, thinner than any cube: samples at corners do not see it.

@@ -8,6 +8,7 @@
 #include "bench/oracle/exact/exact_distance.h"
 #include "bench/oracle/exact/interval_distance.h"
 #include "core/detector.h"
+#include "core/float_limits.h"
 #include "core/geometry/point_triangle.h"
 #include "tests/bench/oracle/corner_case_triangles.h"
 
@@ -16,8 +17,6 @@ namespace {
 
 using bench::oracle::ExactNearest;
 using Corners = CornerCases::Corners;
-
-constexpr double unit_roundoff = 0x1p-53;
 
 ExactNearest exact_nearest(const CornerCase& c) {
   return bench::oracle::nearest_exactly(c.point, {&c.triangle, 1});

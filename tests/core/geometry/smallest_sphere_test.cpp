@@ -1,20 +1,14 @@
 #include "core/geometry/smallest_sphere.h"
 
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "bench/support/random.h"
+
 namespace touchmark {
 namespace {
-
-double number(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; }
-
-Vec3 point(std::mt19937_64& random) {
-  const double x = number(random), y = number(random), z = number(random);
-  return {x, y, z};
-}
 
 bool holds_all(const Sphere& sphere, const std::vector<Vec3>& points) {
   for (const Vec3& p : points)
@@ -56,11 +50,11 @@ TEST(SmallestSphere, OfPointsOnALineHasTheEndsAsDiameter) {
 }
 
 TEST(SmallestSphere, HoldsEveryPointForCertainAtAnyOffset) {
-  std::mt19937_64 random(3);
+  bench::support::Random random(3);
   for (const double offset : {0.0, 1.0, 1e6, 1e12}) {
     for (int round = 0; round < 200; ++round) {
       std::vector<Vec3> points;
-      for (int i = 0; i < 3 + round; ++i) points.push_back(point(random) + Vec3(offset, -offset, offset));
+      for (int i = 0; i < 3 + round; ++i) points.push_back(random.point() + Vec3(offset, -offset, offset));
       ASSERT_TRUE(holds_all(smallest_sphere(points), points)) << offset << ' ' << round;
     }
   }
@@ -69,15 +63,15 @@ TEST(SmallestSphere, HoldsEveryPointForCertainAtAnyOffset) {
 /// A sphere is the smallest iff its centre is in the hull of the points on it: no direction leads away from
 /// all.
 TEST(SmallestSphere, CannotMoveInAnyDirectionAndShrink) {
-  std::mt19937_64 random(4);
+  bench::support::Random random(4);
   for (int round = 0; round < 200; ++round) {
     std::vector<Vec3> points;
-    for (int i = 0; i < 4 + round; ++i) points.push_back(point(random));
+    for (int i = 0; i < 4 + round; ++i) points.push_back(random.point());
     if (round % 3 == 0)
       for (Vec3& p : points) p.normalize();  // all on one sphere
     const Sphere sphere = smallest_sphere(points);
     for (int way = 0; way < 100; ++way) {
-      const Vec3 moved = sphere.center + 1e-4 * point(random);
+      const Vec3 moved = sphere.center + 1e-4 * random.point();
       double needed = 0;
       for (const Vec3& p : points) needed = std::max(needed, (p - moved).norm());
       ASSERT_GE(needed, sphere.radius * (1 - 1e-12)) << round;

@@ -1,7 +1,6 @@
 #include "core/geometry/triangle_box.h"
 
 #include <cmath>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -11,13 +10,6 @@ namespace touchmark {
 namespace {
 
 const Aabb unit{{0, 0, 0}, {1, 1, 1}};
-
-double number(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; }
-
-Vec3 point(std::mt19937_64& random) {
-  const double x = number(random), y = number(random), z = number(random);
-  return {x, y, z};
-}
 
 TEST(TriangleBox, ATriangleInsideOverlaps) {
   EXPECT_TRUE(overlaps({Vec3(.2, .2, .2), Vec3(.4, .2, .2), Vec3(.2, .4, .3)}, unit));
@@ -47,15 +39,15 @@ TEST(TriangleBox, DegenerateTrianglesAreSegmentsAndPoints) {
 }
 
 TEST(TriangleBox, NeverMissesAPointOfTheTriangleInTheBox) {
-  std::mt19937_64 random(5);
+  bench::support::Random random(5);
   for (const double offset : {0.0, 1e6}) {
     const Vec3 shift(offset, -offset, 2 * offset);
     for (int round = 0; round < 20000; ++round) {
-      const std::array<Vec3, 3> corner = {point(random) + shift, point(random) + shift,
-                                          point(random) + shift};
-      const double a = std::abs(number(random)), b = std::abs(number(random));
+      const std::array<Vec3, 3> corner = {random.point() + shift, random.point() + shift,
+                                          random.point() + shift};
+      const double a = std::abs(random.between(-1, 1)), b = std::abs(random.between(-1, 1));
       const Vec3 inside = bench::support::point_in_triangle(corner[0], corner[1], corner[2], a, b);
-      const Vec3 half = round % 2 == 0 ? Vec3::Zero() : Vec3(1e-3 * point(random).cwiseAbs());
+      const Vec3 half = round % 2 == 0 ? Vec3::Zero() : Vec3(1e-3 * random.point().cwiseAbs());
       ASSERT_TRUE(overlaps(corner, {inside - half, inside + half}));
     }
   }
@@ -63,10 +55,10 @@ TEST(TriangleBox, NeverMissesAPointOfTheTriangleInTheBox) {
 
 TEST(TriangleBox, SeparatesWhatSamplingOnTheTriangleSaysIsFar) {
   // A triangle whose every sample is farther from the box than the samples' spacing misses it.
-  std::mt19937_64 random(6);
+  bench::support::Random random(6);
   int missed = 0;
   for (int round = 0; round < 3000; ++round) {
-    const std::array<Vec3, 3> corner = {3 * point(random), 3 * point(random), 3 * point(random)};
+    const std::array<Vec3, 3> corner = {3 * random.point(), 3 * random.point(), 3 * random.point()};
     double nearest = 1e9;
     constexpr int steps = 40;
     for (int i = 0; i <= steps; ++i) {

@@ -11,23 +11,23 @@
 namespace touchmark {
 namespace {
 
-const GridGroup::Options lazy{.construction = GridGroup::Construction::lazy};
+const GridGroup::Options lazy_groups{.construction = GridGroup::Construction::lazy};
 
 class LazyGroups : public test::LazyMaking<GridGroup> {};
 
 TEST_F(LazyGroups, AnswerWithTheSameBitsInAnyOrder) {
   for (const auto& order : orders()) {
-    const GridGroup detector = GridGroup::build(mesh_, lazy);
+    const GridGroup detector = GridGroup::build(mesh_, lazy_groups);
     EXPECT_EQ(detector.groups(), 0U);
     for (int pass = 0; pass < 3; ++pass) EXPECT_EQ(wrong_answers(detector, order), 0);
     EXPECT_GT(detector.groups(), 100U);
   }
 }
 
-TEST_F(LazyGroups, AnswerManyThreadsAtOnce) { expect_right_answers_in_threads(lazy); }
+TEST_F(LazyGroups, AnswerManyThreadsAtOnce) { expect_right_answers_in_threads(lazy_groups); }
 
 TEST_F(LazyGroups, AreMadeWithBoundedWorkInAQuery) {
-  const GridGroup detector = GridGroup::build(mesh_, lazy);
+  const GridGroup detector = GridGroup::build(mesh_, lazy_groups);
   GridGroup::Session session, session_of_whole;
   std::uint64_t most = 0;
   for (const test::Question& question : all_) {
@@ -45,7 +45,7 @@ TEST_F(LazyGroups, AreMadeWithBoundedWorkInAQuery) {
 
 // But for cells of another size: what their parents know decides how fine they are.
 TEST_F(LazyGroups, TakeTheWorkOfThoseBuiltWholeOnceMade) {
-  const GridGroup detector = GridGroup::build(mesh_, lazy);
+  const GridGroup detector = GridGroup::build(mesh_, lazy_groups);
   for (int pass = 0; pass < 4; ++pass) wrong_answers(detector, order_);
   GridGroup::Session session, session_of_whole;
   for (const test::Question& question : all_) {
@@ -58,7 +58,7 @@ TEST_F(LazyGroups, TakeTheWorkOfThoseBuiltWholeOnceMade) {
 }
 
 TEST_F(LazyGroups, TakeNoMoreMemoryThanAtFirst) {
-  const GridGroup detector = GridGroup::build(mesh_, lazy);
+  const GridGroup detector = GridGroup::build(mesh_, lazy_groups);
   const std::size_t bytes = detector.bytes();
   wrong_answers(detector, order_);
   EXPECT_EQ(detector.bytes(), bytes);
@@ -69,7 +69,7 @@ TEST_F(LazyGroups, TakeNoMoreMemoryThanAtFirst) {
 }
 
 TEST_F(LazyGroups, DoWithoutWhereTheMemoryIsTaken) {
-  GridGroup::Options little = lazy;
+  GridGroup::Options little = lazy_groups;
   little.bytes_per_triangle = 230;
   const GridGroup detector = GridGroup::build(mesh_, little);
   for (int pass = 0; pass < 2; ++pass) EXPECT_EQ(wrong_answers(detector, order_), 0);

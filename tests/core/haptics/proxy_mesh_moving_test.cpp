@@ -37,8 +37,8 @@ TriangleMesh sheet(const At& at) {
 
 template <class D>
 class PushedProxy : public testing::Test {};
-using Detectors = testing::Types<SphereCluster, AabbTree>;
-TYPED_TEST_SUITE(PushedProxy, Detectors);
+using PushingDetectors = testing::Types<SphereCluster, AabbTree>;
+TYPED_TEST_SUITE(PushedProxy, PushingDetectors);
 
 /// Level, tilted, curved and shaken sheets go over a proxy that wants to stay, up and down again.
 TYPED_TEST(PushedProxy, IsOnTheSameSideOfASheetThatGoesOverItEachTick) {

@@ -16,11 +16,12 @@
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/scene/moving_oracle.h"
 #include "tests/core/scene/random_pose.h"
+#include "tests/core/scene/square_bodies.h"
 
 namespace touchmark {
 namespace {
 
-using test::Mover, test::Point, test::Random, test::Real, test::Screw;
+using test::at, test::Mover, test::Point, test::Random, test::Real, test::Screw;
 using Bodies = Scene<SphereCluster>;
 static_assert(SeesMotion<Bodies> && !SeesMotion<SphereCluster>);
 
@@ -101,7 +102,6 @@ Screw shift(double x, double y, double z) {
   return {by.cast<Real>().normalized(), Point::Zero(), 0, by.cast<Real>().norm()};
 }
 Screw turn(double angle) { return {Point::UnitZ(), Point::Zero(), static_cast<Real>(angle), 0}; }
-Pose at(double x, double y, double z) { return {Eigen::Matrix3d::Identity(), {x, y, z}}; }
 
 TEST(MovedProxy, IsPushedByAPistonThatGoesThroughItInOneTick) {
   for (const double radius : {0.0, 0.1}) {

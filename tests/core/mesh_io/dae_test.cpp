@@ -10,11 +10,13 @@
 
 #include "core/mesh_io/dae/read_dae.h"
 #include "core/mesh_io/mesh_io.h"
+#include "tests/core/mesh_io/volume.h"
 #include "tests/temporary_folder.h"
 
 namespace touchmark {
 namespace {
 
+using test::volume;
 using Replacement = std::pair<std::string, std::string>;
 
 /// The tetrahedron (0,0,0) (1,0,0) (0,2,0) (0,0,3), with texts replaced at their first place.
@@ -54,13 +56,6 @@ std::string transformed(const std::string& transforms) {
 
 TriangleMesh mesh_of(const std::string& text) { return mesh_io::mesh_of(mesh_io::read_dae(text)); }
 
-double volume(const TriangleMesh& mesh) {
-  double six = 0;
-  for (std::size_t i = 0; i < mesh.size(); ++i)
-    six += mesh.corner(i, 0).dot(mesh.corner(i, 1).cross(mesh.corner(i, 2)));
-  return six / 6;
-}
-
 void expect_corners(const TriangleMesh& mesh, const std::array<Vec3, 4>& corners) {
   ASSERT_EQ(mesh.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_LT((mesh.vertices()[i] - corners[i]).norm(), 1e-12) << i;
@@ -72,7 +67,7 @@ void expect_tetra(const std::string& text) {
   EXPECT_DOUBLE_EQ(volume(mesh), 1);
 }
 
-void expect_refusal(const std::string& text, const std::string& why) {
+void expect_refused(const std::string& text, const std::string& why) {
   std::string message = "accepted";
   try {
     mesh_io::read_dae(text);
@@ -83,8 +78,8 @@ void expect_refusal(const std::string& text, const std::string& why) {
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
-void expect_refusal(const std::vector<Replacement>& replacements, const std::string& why) {
-  expect_refusal(tetra(replacements), why);
+void expect_refused(const std::vector<Replacement>& replacements, const std::string& why) {
+  expect_refused(tetra(replacements), why);
 }
 
 std::string utf16(const std::string& ascii, bool is_big) {
@@ -147,7 +142,7 @@ TEST(ReadDae, ReadsTextAsXmlHasIt) {
   expect_tetra("\xef\xbb\xbf" + tetra());
   expect_tetra(utf16(tetra({{"utf-8", "utf-16"}}), false));
   expect_tetra(utf16(tetra({{"utf-8", "utf-16"}}), true));
-  expect_refusal(utf16(tetra({{"1 2 3<", "1 2 9<"}}), true), "line 9: <p> in 'g': the number of corner 11");
+  expect_refused(utf16(tetra({{"1 2 3<", "1 2 9<"}}), true), "line 9: <p> in 'g': the number of corner 11");
 }
 
 TEST(ReadDae, AppliesTransformsInTheirOrder) {
@@ -183,101 +178,101 @@ TEST(ReadDae, PlacesInstancesAndNamesTheirNodes) {
 }
 
 TEST(ReadDae, RefusesArraysThatAreNotWhatTheySay) {
-  expect_refusal({{"count=\"12\"", "count=\"3\""}},
+  expect_refused({{"count=\"12\"", "count=\"3\""}},
                  "line 5: <float_array> 'a': has 12 numbers, but its count is 3");
-  expect_refusal({{"0 0 3<", "0 0<"}}, "has 11 numbers, but its count is 12");
-  expect_refusal({{"0 0 3<", "0 0 0,3<"}}, "line 5: <float_array> 'a': the number '0,3'");
+  expect_refused({{"0 0 3<", "0 0<"}}, "has 11 numbers, but its count is 12");
+  expect_refused({{"0 0 3<", "0 0 0,3<"}}, "line 5: <float_array> 'a': the number '0,3'");
   for (const std::string number : {"NaN", "INF", "-INF"})
-    expect_refusal({{"0 0 3<", "0 0 " + number + "<"}}, "is not finite");
+    expect_refused({{"0 0 3<", "0 0 " + number + "<"}}, "is not finite");
   for (const std::string stride :
        {"stride=\"30\"", "stride=\"3\" offset=\"1\"", "stride=\"6148914691236517206\""})
-    expect_refusal({{"stride=\"3\"", stride}}, "line 6: <accessor> in 's': count 4");
-  expect_refusal({{"count=\"4\" stride", "count=\"5\" stride"}}, "reach beyond the 12 numbers");
-  expect_refusal({{"stride=\"3\"", "offset=\"-3\" stride=\"3\""}}, "offset -3 is negative");
-  expect_refusal({{"stride=\"3\"", ""}}, "has 3 params, but its stride is 1");
-  expect_refusal({{"\"X\"", "\"Z\""}}, "named params are 'ZYZ'");
-  expect_refusal({{"<param name=\"X\"/>", ""}}, "named params are 'YZ'");
+    expect_refused({{"stride=\"3\"", stride}}, "line 6: <accessor> in 's': count 4");
+  expect_refused({{"count=\"4\" stride", "count=\"5\" stride"}}, "reach beyond the 12 numbers");
+  expect_refused({{"stride=\"3\"", "offset=\"-3\" stride=\"3\""}}, "offset -3 is negative");
+  expect_refused({{"stride=\"3\"", ""}}, "has 3 params, but its stride is 1");
+  expect_refused({{"\"X\"", "\"Z\""}}, "named params are 'ZYZ'");
+  expect_refused({{"<param name=\"X\"/>", ""}}, "named params are 'YZ'");
 }
 
 TEST(ReadDae, RefusesFacesThatAreNotWhatTheySay) {
-  expect_refusal({{"1 2 3<", "1 2 -1<"}}, "line 9: <p> in 'g': the number of corner 11 names vertex -1 of 4");
-  expect_refusal({{"1 2 3<", "1 2 4<"}}, "corner 11 names vertex 4 of 4");
-  expect_refusal({{"1 2 3<", "1 2<"}}, "11 corners are no whole triangles");
-  expect_refusal({{"triangles count=\"4\"", "triangles count=\"5\""}}, "has 4 triangles, but its count is 5");
-  expect_refusal({{"triangles count=\"4\"", "triangles count=\"4\" count=\"5\""}},
+  expect_refused({{"1 2 3<", "1 2 -1<"}}, "line 9: <p> in 'g': the number of corner 11 names vertex -1 of 4");
+  expect_refused({{"1 2 3<", "1 2 4<"}}, "corner 11 names vertex 4 of 4");
+  expect_refused({{"1 2 3<", "1 2<"}}, "11 corners are no whole triangles");
+  expect_refused({{"triangles count=\"4\"", "triangles count=\"5\""}}, "has 4 triangles, but its count is 5");
+  expect_refused({{"triangles count=\"4\"", "triangles count=\"4\" count=\"5\""}},
                  "has two attributes count");
-  expect_refusal(primitive("polylist count=\"1\"", "<vcount>3</vcount><p>0 1 2 3</p>"), "its vcount names 3");
-  expect_refusal(primitive("polylist count=\"1\"", "<vcount>5</vcount><p>0 1 2 3</p>"), "and 4 are left");
-  expect_refusal(primitive("polylist count=\"2\"", "<vcount>2 3</vcount><p>0 1 0 1 2</p>"),
+  expect_refused(primitive("polylist count=\"1\"", "<vcount>3</vcount><p>0 1 2 3</p>"), "its vcount names 3");
+  expect_refused(primitive("polylist count=\"1\"", "<vcount>5</vcount><p>0 1 2 3</p>"), "and 4 are left");
+  expect_refused(primitive("polylist count=\"2\"", "<vcount>2 3</vcount><p>0 1 0 1 2</p>"),
                  "takes at least 3");
-  expect_refusal(primitive("polylist count=\"2\"", "<vcount>3</vcount><p>0 1 2</p>"), "has 1 polygons");
-  expect_refusal(primitive("tristrips count=\"2\"", "<p>0 1 2</p>"), "has 1 <p>, but its count is 2");
-  expect_refusal(primitive("trifans count=\"1\"", "<p>0 1</p>"), "has 2 corners");
-  expect_refusal(primitive("polygons count=\"1\"", "<ph><p>0 1 2</p><h>0 1 3</h></ph>"),
+  expect_refused(primitive("polylist count=\"2\"", "<vcount>3</vcount><p>0 1 2</p>"), "has 1 polygons");
+  expect_refused(primitive("tristrips count=\"2\"", "<p>0 1 2</p>"), "has 1 <p>, but its count is 2");
+  expect_refused(primitive("trifans count=\"1\"", "<p>0 1</p>"), "has 2 corners");
+  expect_refused(primitive("polygons count=\"1\"", "<ph><p>0 1 2</p><h>0 1 3</h></ph>"),
                  "polygons with holes");
-  expect_refusal({{"\" offset=\"0\"/>", "\" offset=\"0\"/><input semantic=\"NORMAL\" offset=\"4\"/>"}},
+  expect_refused({{"\" offset=\"0\"/>", "\" offset=\"0\"/><input semantic=\"NORMAL\" offset=\"4\"/>"}},
                  "has 12 numbers");
-  expect_refusal({{"<triangles", "<patches/><triangles"}}, "<patches> in 'g': cannot stand in <mesh>");
+  expect_refused({{"<triangles", "<patches/><triangles"}}, "<patches> in 'g': cannot stand in <mesh>");
 }
 
 TEST(ReadDae, RefusesOtherGeometries) {
   for (const std::string name : {"spline", "brep", "convex_mesh convex_hull_of=\"#h\""})
-    expect_refusal({{"<mesh>", "<" + name + "/><m>"}, {"</mesh>", "</m>"}}, name.substr(0, name.find(' ')));
-  expect_refusal({{"<instance_geometry", "<instance_controller"}}, "skins and morphs are not read");
-  expect_refusal({{"<triangles count=\"4\">", "<lines>"}, {"</triangles>", "</lines>"}},
+    expect_refused({{"<mesh>", "<" + name + "/><m>"}, {"</mesh>", "</m>"}}, name.substr(0, name.find(' ')));
+  expect_refused({{"<instance_geometry", "<instance_controller"}}, "skins and morphs are not read");
+  expect_refused({{"<triangles count=\"4\">", "<lines>"}, {"</triangles>", "</lines>"}},
                  "shows no triangles");
 }
 
 TEST(ReadDae, RefusesTransformsThatAreNone) {
-  expect_refusal(transformed("<translate>1 2</translate>"), "<translate> in 'n': has 2 numbers; it takes 3");
-  expect_refusal(transformed("<translate>1 2 INF</translate>"), "is not finite");
-  expect_refusal(transformed("<rotate>0 0 0 90</rotate>"), "its axis has no length");
+  expect_refused(transformed("<translate>1 2</translate>"), "<translate> in 'n': has 2 numbers; it takes 3");
+  expect_refused(transformed("<translate>1 2 INF</translate>"), "is not finite");
+  expect_refused(transformed("<rotate>0 0 0 90</rotate>"), "its axis has no length");
   expect_tetra(transformed("<rotate>0 0 0 0</rotate>"));
   expect_tetra(transformed("<rotate>0 0 0 360</rotate>"));
-  expect_refusal(transformed("<matrix>1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1</matrix>"), "its last row");
-  expect_refusal(transformed("<skew>45 1 0 0 1 0 0</skew>"), "axes are parallel");
-  expect_refusal(transformed("<lookat>0 0 5 0 0 0 0 0 1</lookat>"), "in one line");
-  expect_refusal(transformed("<rotation>0 0 1 90</rotation>"), "<rotation> in 'n': cannot stand in <node>");
+  expect_refused(transformed("<matrix>1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1</matrix>"), "its last row");
+  expect_refused(transformed("<skew>45 1 0 0 1 0 0</skew>"), "axes are parallel");
+  expect_refused(transformed("<lookat>0 0 5 0 0 0 0 0 1</lookat>"), "in one line");
+  expect_refused(transformed("<rotation>0 0 1 90</rotation>"), "<rotation> in 'n': cannot stand in <node>");
 }
 
 TEST(ReadDae, RefusesUnitsAndAxesThatAreNone) {
   for (const std::string meter : {"0", "-1", "NaN", "INF", ""})
-    expect_refusal({{"meter=\"1\"", "meter=\"" + meter + "\""}}, "line 3: <unit>: meter");
-  expect_refusal({{"Y_UP", "W_UP"}}, "'W_UP' is none of");
-  expect_refusal({{"<mesh>", "<asset><unit meter=\"0.01\"/></asset><mesh>"}}, "is not the unit of the file");
+    expect_refused({{"meter=\"1\"", "meter=\"" + meter + "\""}}, "line 3: <unit>: meter");
+  expect_refused({{"Y_UP", "W_UP"}}, "'W_UP' is none of");
+  expect_refused({{"<mesh>", "<asset><unit meter=\"0.01\"/></asset><mesh>"}}, "is not the unit of the file");
 }
 
 TEST(ReadDae, RefusesTargetsThatAreNotThere) {
-  expect_refusal({{"url=\"#g\"", "url=\"#nosuch\""}}, "names '#nosuch', but no <geometry> has this id");
-  expect_refusal({{"source=\"#a\"", "source=\"#s\""}}, "no <float_array> or <int_array>");
-  expect_refusal({{"url=\"#g\"", "url=\"other.dae#g\""}}, "in another file");
-  expect_refusal({{"<library_nodes>", "<geometry id=\"g\"/><library_nodes>"}},
+  expect_refused({{"url=\"#g\"", "url=\"#nosuch\""}}, "names '#nosuch', but no <geometry> has this id");
+  expect_refused({{"source=\"#a\"", "source=\"#s\""}}, "no <float_array> or <int_array>");
+  expect_refused({{"url=\"#g\"", "url=\"other.dae#g\""}}, "in another file");
+  expect_refused({{"<library_nodes>", "<geometry id=\"g\"/><library_nodes>"}},
                  "an id that 2 <geometry> have");
-  expect_refusal({{"<scene><instance_visual_scene url=\"#S\"/></scene>", ""},
+  expect_refused({{"<scene><instance_visual_scene url=\"#S\"/></scene>", ""},
                   {"id=\"l\"><node/>", "id=\"l\"><visual_scene/>"}},
                  "has 2 visual scenes");
 }
 
 TEST(ReadDae, RefusesNodesThatContainThemselvesOrAreTooMany) {
-  expect_refusal({{"<node/>", "<instance_node url=\"#l\"/>"},
+  expect_refused({{"<node/>", "<instance_node url=\"#l\"/>"},
                   {"<instance_geometry", "<instance_node url=\"#l\"/><instance_geometry"}},
                  "names '#l', a node that it is in");
   std::string deep, ends, laughs;
   for (int i = 0; i < 100'000; ++i) deep += "<node>", ends += "</node>";
-  expect_refusal({{"<instance_geometry url=\"#g\"/>", deep + "<instance_geometry url=\"#g\"/>" + ends}},
+  expect_refused({{"<instance_geometry url=\"#g\"/>", deep + "<instance_geometry url=\"#g\"/>" + ends}},
                  "is deeper than 1000");
   for (int i = 0; i < 40; ++i) {
     const std::string next = "<instance_node url=\"#l" + std::to_string(i + 1) + "\"/>";
     laughs += "<node id=\"l" + std::to_string(i) + "\">" + next + next + "</node>";
   }
-  expect_refusal({{"id=\"l\"", "id=\"l40\""},
+  expect_refused({{"id=\"l\"", "id=\"l40\""},
                   {"<library_nodes>", "<library_nodes>" + laughs},
                   {"<instance_geometry", "<instance_node url=\"#l0\"/><instance_geometry"}},
                  "repeat more than 1048576 elements");
   std::string many = "<instance_geometry url=\"#g\"/>", zeros;
   for (int i = 0; i < 12; ++i) many += many;
   for (int i = 0; i < 60'000; ++i) zeros += " 0";
-  expect_refusal({{"<instance_geometry url=\"#g\"/>", many},
+  expect_refused({{"<instance_geometry url=\"#g\"/>", many},
                   {"count=\"12\">", "count=\"60012\">"},
                   {"0 0 3<", "0 0 3" + zeros + "<"},
                   {"count=\"4\" stride", "count=\"20004\" stride"}},
@@ -285,15 +280,15 @@ TEST(ReadDae, RefusesNodesThatContainThemselvesOrAreTooMany) {
 }
 
 TEST(ReadDae, RefusesOtherXml) {
-  expect_refusal(tetra().substr(0, 600), "no well-formed XML");
-  expect_refusal(tetra() + "more", "goes on after the end of its XML");
-  expect_refusal(tetra() + std::string("\0<more/>", 8), "line 14: goes on after");
+  expect_refused(tetra().substr(0, 600), "no well-formed XML");
+  expect_refused(tetra() + "more", "goes on after the end of its XML");
+  expect_refused(tetra() + std::string("\0<more/>", 8), "line 14: goes on after");
   expect_tetra(tetra() + std::string("\0\x1a\n", 3));
-  expect_refusal(tetra() + "<COLLADA/>", "has 2 root elements");
-  expect_refusal({{"1.4.1", "1.3.0"}}, "COLLADA '1.3.0' is not read");
-  expect_refusal("<html/>", "begins with 'html' instead of COLLADA");
-  expect_refusal({{"<COLLADA", "<!DOCTYPE COLLADA [<!ENTITY a \"3\">]>\n<COLLADA"}}, "declares entities");
-  expect_refusal("PK\x03\x04 and more", "is a zip archive");
+  expect_refused(tetra() + "<COLLADA/>", "has 2 root elements");
+  expect_refused({{"1.4.1", "1.3.0"}}, "COLLADA '1.3.0' is not read");
+  expect_refused("<html/>", "begins with 'html' instead of COLLADA");
+  expect_refused({{"<COLLADA", "<!DOCTYPE COLLADA [<!ENTITY a \"3\">]>\n<COLLADA"}}, "declares entities");
+  expect_refused("PK\x03\x04 and more", "is a zip archive");
 }
 
 TEST(ReadDae, IsWhatLoadMeshAndLoadNodeTreeCall) {

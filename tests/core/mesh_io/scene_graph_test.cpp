@@ -8,10 +8,13 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "tests/core/mesh_io/volume.h"
+
 namespace touchmark::mesh_io {
 namespace {
 
 using Eigen::Matrix4d;
+using test::volume;
 
 /// A tetrahedron of volume 1 with its faces outwards.
 SceneGraph::Part tetrahedron() {
@@ -26,13 +29,6 @@ Matrix4d turned(double angle) {
   Matrix4d matrix = Matrix4d::Identity();
   matrix.topLeftCorner<3, 3>() = Eigen::AngleAxisd(angle, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   return matrix;
-}
-
-double volume(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (std::size_t i = 0; i < mesh.size(); ++i)
-    sum += mesh.corner(i, 0).dot(mesh.corner(i, 1).cross(mesh.corner(i, 2))) / 6;
-  return sum;
 }
 
 template <class Load>

@@ -1,34 +1,27 @@
 /// One of many points, of which little is remembered, is answered as by a session that remembers nothing:
 /// the same bits, however it moved.
 #include <cmath>
-#include <cstring>
-#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "bench/workload/answer.h"
 #include "core/float_limits.h"
 #include "core/search/many/nearest_many.h"
 #include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/core/same_contact.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 
 namespace touchmark {
 namespace {
 
-using bench::workload::Answer;
+using test::same_bits;
 
 static_assert(FollowsPoints<SphereCluster>);
 static_assert(sizeof(SphereCluster::FollowedPoint) == 384);
 
-bool same_bits(const std::optional<Contact>& a, const std::optional<Contact>& b) {
-  const Answer left = a ? Answer::of(*a) : Answer{}, right = b ? Answer::of(*b) : Answer{};
-  return std::memcmp(&left, &right, sizeof left) == 0;
-}
-
 /// Walks from a random place, in steps as long as this part of the mesh.
-void expect_walks_alike(const SphereCluster& detector, const test::NamedMesh& named, double step,
-                        std::uint64_t seed) {
+void expect_followed_alike(const SphereCluster& detector, const test::NamedMesh& named, double step,
+                           std::uint64_t seed) {
   test::Random random(seed);
   SphereCluster::FollowedPoint followed;
   Work work;
@@ -51,7 +44,8 @@ TEST(FollowedPoint, IsAnsweredAsOneOfWhichNothingIsKnown) {
   std::uint64_t seed = 1;
   for (const test::NamedMesh& named : test::test_meshes()) {
     const auto detector = SphereCluster::build(named.mesh);
-    for (const double step : {0.0, 1e-9, 1e-4, 1e-2, 0.3}) expect_walks_alike(detector, named, step, ++seed);
+    for (const double step : {0.0, 1e-9, 1e-4, 1e-2, 0.3})
+      expect_followed_alike(detector, named, step, ++seed);
   }
 }
 
@@ -62,7 +56,7 @@ TEST(FollowedPoint, IsAnsweredAlikeByEveryInstructionSetAndForm) {
     options.widest = widest;
     options.construction =
         widest == Simd::avx2 ? SphereCluster::Construction::lazy : SphereCluster::Construction::whole;
-    expect_walks_alike(SphereCluster::build(named.mesh, options), named, 1e-3, 3);
+    expect_followed_alike(SphereCluster::build(named.mesh, options), named, 1e-3, 3);
   }
 }
 
@@ -71,7 +65,7 @@ TEST(FollowedPoint, IsAnsweredAlikeWhereDoublesAreFarApart) {
   for (const double offset : {0x1p30, 0x1p44, 0x1p50}) {
     const Vec3 far = Vec3::Constant(offset);
     const test::NamedMesh named{"far off", test::soup(200, 0.3, 2).transformed(1, far), 1.3, far};
-    expect_walks_alike(SphereCluster::build(named.mesh), named, 1e-2, 5);
+    expect_followed_alike(SphereCluster::build(named.mesh), named, 1e-2, 5);
   }
 }
 
@@ -82,7 +76,7 @@ TEST(FollowedPoint, IsAnsweredAlikeWhereMoreIsNearThanIsListed) {
   const test::NamedMesh equal{"equal", test::repeated(1000), 1};
   for (const test::NamedMesh& named : {inside, equal}) {
     const auto detector = SphereCluster::build(named.mesh);
-    for (const double step : {0.0, 1e-4, 0.1}) expect_walks_alike(detector, named, step, 7);
+    for (const double step : {0.0, 1e-4, 0.1}) expect_followed_alike(detector, named, step, 7);
   }
 }
 

@@ -2,28 +2,21 @@
 /// nothing else: the bits of brute force, whatever is asked in between.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <optional>
 
 #include <gtest/gtest.h>
 
-#include "bench/workload/answer.h"
 #include "core/brute_force/brute_force.h"
 #include "core/float_limits.h"
 #include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/core/same_contact.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 
 namespace touchmark {
 namespace {
 
-using bench::workload::Answer;
+using test::same_bits;
 using Session = SphereCluster::Session;
-
-bool same_bits(const std::optional<Contact>& a, const std::optional<Contact>& b) {
-  const Answer left = a ? Answer::of(*a) : Answer{}, right = b ? Answer::of(*b) : Answer{};
-  return std::memcmp(&left, &right, sizeof left) == 0;
-}
 
 /// A place near the mesh: as far off a random triangle's middle as this part of the mesh.
 Vec3 near_surface(const test::NamedMesh& named, double part, test::Random& random) {

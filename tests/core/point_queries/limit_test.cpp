@@ -109,8 +109,8 @@ class Limited {
 
 template <class D>
 class LimitOf : public testing::Test {};
-using Detectors = testing::Types<SphereCluster, GridGroup, Scene<SphereCluster>, Scene<GridGroup>>;
-TYPED_TEST_SUITE(LimitOf, Detectors);
+using LimitedDetectors = testing::Types<SphereCluster, GridGroup, Scene<SphereCluster>, Scene<GridGroup>>;
+TYPED_TEST_SUITE(LimitOf, LimitedDetectors);
 
 TYPED_TEST(LimitOf, LeavesADecidedAnswerAsItIs) {
   std::size_t decided = 0, undecided = 0;

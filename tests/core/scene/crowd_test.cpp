@@ -152,8 +152,8 @@ class Crowd {
 
 template <class D>
 class ExactCrowd : public testing::Test {};
-using Detectors = testing::Types<SphereCluster, GridGroup, AabbTree>;
-TYPED_TEST_SUITE(ExactCrowd, Detectors);
+using CrowdDetectors = testing::Types<SphereCluster, GridGroup, AabbTree>;
+TYPED_TEST_SUITE(ExactCrowd, CrowdDetectors);
 
 template <class D>
 void expect_right(std::uint64_t seed, const Vec3& middle) {

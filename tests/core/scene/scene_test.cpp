@@ -9,6 +9,7 @@
 
 #include "core/brute_force/brute_force.h"
 #include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/core/scene/square_bodies.h"
 
 namespace touchmark {
 namespace {
@@ -17,12 +18,7 @@ static_assert(Detector<Scene<BruteForce>> && AnswersTouches<Scene<BruteForce>>);
 static_assert(AnswersContacts<Scene<BruteForce>>);
 static_assert(AnswersNearest<Scene<SphereCluster>> && AnswersSweep<Scene<SphereCluster>>);
 
-/// The square |x|, |y| <= 1 in the plane z = 0, seen from above.
-TriangleMesh square() {
-  return TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
-}
-
-Pose at(double x, double y, double z) { return {Eigen::Matrix3d::Identity(), {x, y, z}}; }
+using test::square, test::at;
 
 TEST(Scene, AnswersWithTheBodyThatIsNearest) {
   Scene<BruteForce> scene;

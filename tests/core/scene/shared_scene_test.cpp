@@ -12,16 +12,12 @@
 #include "core/brute_force/brute_force.h"
 #include "core/float_limits.h"
 #include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/core/scene/square_bodies.h"
 
 namespace touchmark {
 namespace {
 
-/// The square |x|, |y| <= 1 in the plane z = 0.
-TriangleMesh square() {
-  return TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
-}
-
-Pose at(double x, double y, double z) { return {Eigen::Matrix3d::Identity(), {x, y, z}}; }
+using test::square, test::at;
 
 TEST(SharedScene, ShowsNothingBeforeItIsPublishedAndThenAllOfIt) {
   SharedScene<BruteForce> shared;

@@ -6,23 +6,15 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "core/brute_force/brute_force.h"
-#include "core/float_limits.h"
 #include "core/sign/open_edges.h"
-#include "core/sign/signed_detector.h"
 #include "tests/core/sign/closed_meshes.h"
+#include "tests/core/sign/side_at.h"
 
 namespace touchmark {
 namespace {
 
-using SignedBruteForce = Signed<BruteForce>;
+using test::side_at, test::SignedBruteForce;
 using Method = SideFinder::Method;
-
-Side side_at(const SignedBruteForce& detector, const Vec3& center) {
-  SignedBruteForce::Session session;
-  const auto contact = detector.nearest({center, 0}, infinity, session);
-  return contact ? contact->side : Side::unasked;
-}
 
 /// Without the triangles whose corners all lie below this height.
 TriangleMesh cut_off(const TriangleMesh& mesh, double height) {

@@ -9,10 +9,8 @@
 #include "bench/oracle/exact/exact_winding.h"
 #include "bench/oracle/judge.h"
 #include "bench/oracle/oracle.h"
-#include "core/brute_force/brute_force.h"
-#include "core/float_limits.h"
-#include "core/sign/signed_detector.h"
 #include "tests/core/sign/closed_meshes.h"
+#include "tests/core/sign/side_at.h"
 
 namespace touchmark {
 
@@ -23,18 +21,12 @@ void PrintTo(Side side, std::ostream* out) {
 
 namespace {
 
-using SignedBruteForce = Signed<BruteForce>;
+using test::side_at, test::SignedBruteForce;
 
 std::vector<bench::oracle::Triangle> triangles_of(const TriangleMesh& mesh) {
   std::vector<bench::oracle::Triangle> triangles;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) triangles.push_back(bench::oracle::triangle_of(mesh, i));
   return triangles;
-}
-
-Side side_at(const SignedBruteForce& detector, const Vec3& center) {
-  SignedBruteForce::Session session;
-  const auto contact = detector.nearest({center, 0}, infinity, session);
-  return contact ? contact->side : Side::unasked;
 }
 
 /// By the exact winding number, for solids: behind the faces.

@@ -18,12 +18,7 @@ namespace {
 
 using enum SubdivisionMethod;
 
-constexpr SubdivisionMethod all_methods[] = {butterfly, catmull_clark, catmull_clark_linear,
-                                             mid_point, loop,          ls3};
-
-TriangleMesh once(const TriangleMesh& mesh, SubdivisionMethod method) {
-  return subdivide(mesh, {.method = method, .levels = 1});
-}
+using test::all_methods, test::once;
 
 /// What it throws, or nothing.
 template <typename Error>

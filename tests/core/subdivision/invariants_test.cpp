@@ -20,8 +20,7 @@ namespace {
 using enum SubdivisionMethod;
 using enum SubdivisionForm;
 
-constexpr SubdivisionMethod all_methods[] = {butterfly, catmull_clark, catmull_clark_linear,
-                                             mid_point, loop,          ls3};
+using test::all_methods;
 constexpr SubdivisionForm both_forms[] = {published, meshlab};
 
 TriangleMesh torus() { return test::shaken_torus(9, 6, 0.2); }

@@ -1,4 +1,4 @@
-/// Small meshes with known subdivisions.
+/// Small meshes with known subdivisions, and the methods.
 #pragma once
 
 #include <cmath>
@@ -8,9 +8,19 @@
 #include <utility>
 #include <vector>
 
+#include "core/subdivision/subdivision.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::test {
+
+inline constexpr SubdivisionMethod all_methods[] = {
+    SubdivisionMethod::butterfly, SubdivisionMethod::catmull_clark, SubdivisionMethod::catmull_clark_linear,
+    SubdivisionMethod::mid_point, SubdivisionMethod::loop,          SubdivisionMethod::ls3};
+
+inline TriangleMesh once(const TriangleMesh& mesh, SubdivisionMethod method,
+                         SubdivisionForm form = SubdivisionForm::published) {
+  return subdivide(mesh, {.method = method, .levels = 1, .form = form});
+}
 
 inline TriangleMesh tetrahedron() {
   return TriangleMesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},

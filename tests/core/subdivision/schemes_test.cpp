@@ -17,9 +17,7 @@ namespace {
 using enum SubdivisionMethod;
 using enum SubdivisionForm;
 
-TriangleMesh once(const TriangleMesh& mesh, SubdivisionMethod method, SubdivisionForm form = published) {
-  return subdivide(mesh, {.method = method, .levels = 1, .form = form});
-}
+using test::once;
 
 /// Is there a vertex within 1e-14 of each of these?
 void expect_vertices(const TriangleMesh& mesh, const std::vector<Vec3>& expected) {

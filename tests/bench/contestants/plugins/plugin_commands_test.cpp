@@ -19,7 +19,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 const std::string wrapping = TOUCHMARK_WRAPPING_PLUGIN;
-const std::string hostile = TOUCHMARK_HOSTILE_PLUGIN;
+const std::string hostile_plugin = TOUCHMARK_HOSTILE_PLUGIN;
 const Words sphere{"--mesh", "icosphere:2", "--trajectory", "slide", "--steps", "200"};
 
 /// Has the hostile plug-in misbehave like that in what is started meanwhile.
@@ -82,7 +82,7 @@ TEST(Plugin, RunsBesideOthersAndWithOptions) {
   const TemporaryFolder folder;
   const Outcome outcome = run_touchmark(on_sphere(
       "verify", {"--plugin", wrapping, "--detector", "brute-force", "--detector", "wrapped:cell=20%",
-                 "--plugin", hostile, "--query", "nearest", "--out", folder.path()}));
+                 "--plugin", hostile_plugin, "--query", "nearest", "--out", folder.path()}));
   EXPECT_EQ(outcome.status, 1) << outcome.err;  // the hostile one finds nothing and claims exactness
   const std::string csv = folder.file("results.csv");
   EXPECT_EQ(column_of(csv, "detector"), (Words{"brute-force", "wrapped", "hostile"}));
@@ -106,7 +106,7 @@ TEST(Plugin, ThatWaitsIsTimedByTheTimeThatPasses) {
   const Misbehaving now("sleep in a query");
   const TemporaryFolder folder;
   const Outcome outcome = run_touchmark({"bench", "--mesh", "cube", "--trajectory", "slide", "--steps", "20",
-                                         "--plugin", hostile, "--quick", "--benchmark_repetitions=1",
+                                         "--plugin", hostile_plugin, "--quick", "--benchmark_repetitions=1",
                                          "--benchmark_min_time=0.001", "--no-cold", "--out", folder.path()});
   const std::string csv = folder.file("results.csv");
   for (const char* const column : {"ns_per_query", "cpu_ns_per_query", "ns_p50"})
@@ -183,7 +183,7 @@ TEST(Plugin, WhoseDescriptionIsWrongIsRefusedInOneLine) {
                                                         {"no build", "build is NULL"},
                                                         {"no query", "it answers nothing"}}) {
     const Misbehaving now(how);
-    expect_bad_input(on_sphere("verify", {"--plugin", hostile}), {hostile, why});
+    expect_bad_input(on_sphere("verify", {"--plugin", hostile_plugin}), {hostile_plugin, why});
   }
 }
 
@@ -201,7 +201,7 @@ TEST(Plugin, ThatFailsLaterHasAStatusAndEndsNothing) {
     const Misbehaving now(how);
     const TemporaryFolder folder;
     const Outcome outcome =
-        run_touchmark(on_sphere("verify", {"--plugin", hostile, "--query", "nearest", "--detector",
+        run_touchmark(on_sphere("verify", {"--plugin", hostile_plugin, "--query", "nearest", "--detector",
                                            "brute-force", "--timeout", "0.3", "--out", folder.path()}));
     const Words statuses = column_of(folder.file("results.csv"), "status");
     ASSERT_EQ(statuses.size(), 2u) << how << outcome.err;
@@ -213,7 +213,7 @@ TEST(Plugin, ThatFailsLaterHasAStatusAndEndsNothing) {
 #ifdef __SSE__
 TEST(Plugin, ThatSwitchesDenormalsOffIsToldOf) {
   const Misbehaving now("flush to zero");
-  const Outcome outcome = run_touchmark(on_sphere("verify", {"--plugin", hostile}));
+  const Outcome outcome = run_touchmark(on_sphere("verify", {"--plugin", hostile_plugin}));
   EXPECT_NE(outcome.err.find("hostile: loading it switched denormal numbers off"), std::string::npos)
       << outcome.err;
 }
@@ -227,8 +227,9 @@ TEST(Plugin, ThatAnswersGarbageIsFoundOut) {
                                                         {"find nothing", "missed"}}) {
     const Misbehaving now(how);
     const TemporaryFolder folder;
-    const Outcome outcome = run_touchmark(on_sphere(
-        "verify", {"--plugin", hostile, "--query", "nearest", "--reach", "inf", "--out", folder.path()}));
+    const Outcome outcome =
+        run_touchmark(on_sphere("verify", {"--plugin", hostile_plugin, "--query", "nearest", "--reach", "inf",
+                                           "--out", folder.path()}));
     EXPECT_EQ(outcome.status, 1) << how << outcome.err;
     EXPECT_EQ(column_of(folder.file("results.csv"), column).at(0), "200") << how;
   }
@@ -236,7 +237,8 @@ TEST(Plugin, ThatAnswersGarbageIsFoundOut) {
 
 TEST(Plugin, ThatClaimsLittleIsNotBroken) {
   const Misbehaving now("approximate");
-  const Outcome outcome = run_touchmark(on_sphere("verify", {"--plugin", hostile, "--query", "nearest"}));
+  const Outcome outcome =
+      run_touchmark(on_sphere("verify", {"--plugin", hostile_plugin, "--query", "nearest"}));
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   EXPECT_NE(outcome.out.find("as claimed"), std::string::npos);
 }

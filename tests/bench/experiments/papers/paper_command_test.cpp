@@ -2,7 +2,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -10,35 +9,11 @@
 
 #include "bench/experiments/papers/decimation.h"
 #include "bench/meshes/meshes.h"
+#include "tests/bench/cli/csv_fields.h"
 #include "tests/bench/cli/run_touchmark.h"
 
 namespace touchmark::bench::cli {
 namespace {
-
-using Rows = std::vector<std::map<std::string, std::string>>;
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream in(line + ",");
-  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-/// Of files whose fields need no quotes.
-Rows rows_of(const std::string& path) {
-  std::istringstream in(content_of(path));
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> header = cells_of(line);
-  Rows rows;
-  while (std::getline(in, line)) {
-    const std::vector<std::string> cells = cells_of(line);
-    EXPECT_EQ(cells.size(), header.size()) << line;
-    for (rows.emplace_back(); const std::string& name : header)
-      rows.back()[name] = cells[static_cast<std::size_t>(&name - header.data())];
-  }
-  return rows;
-}
 
 bool is_there(const TemporaryFolder& folder, const char* file) {
   return std::filesystem::exists(folder.file(file));
@@ -79,7 +54,7 @@ TEST_F(PaperChoiSung, LeavesTablesReportAndPictureData) {
 }
 
 TEST_F(PaperChoiSung, HasARowForEverySurfaceWithoutAndWithClustering) {
-  const Rows rows = rows_of(folder.file("table1.csv"));
+  const std::vector<Row> rows = rows_of(folder.file("table1.csv"));
   ASSERT_EQ(rows.size(), 2u * (1 + 5 * 3));
   for (auto row : rows) {
     const bool clustered = row["clustering"] != "0";
@@ -129,7 +104,7 @@ TEST(PaperChoiSungBunny, MakesThePapersCountsOfThePapersBunny) {
   }
   EXPECT_EQ(found, 30u);
   // The paper's 1686, 2469, 2896: the order in which it visits triangles is unknown.
-  const Rows table3 = rows_of(folder.file("table3.csv"));
+  const std::vector<Row> table3 = rows_of(folder.file("table3.csv"));
   const double printed[] = {728, 1686, 2469, 2896};
   for (std::size_t level = 0; level < 4; ++level)
     EXPECT_NEAR(std::stod(table3[level].at("clustered_spheres")), printed[level], 0.03 * printed[level]);
@@ -161,7 +136,7 @@ TEST(PaperParkJang, TimesEveryFormOnTheSameSteps) {
   const Outcome outcome = run_paper("park-jang-2018", "icosphere:3", folder);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
-  std::map<std::string, Rows> forms;
+  std::map<std::string, std::vector<Row>> forms;
   for (auto row : rows_of(folder.file("times.csv"))) forms[row["form"]].push_back(row);
   EXPECT_EQ(forms["ungrouped"].size(), 1u);
   EXPECT_EQ(forms["direct"].size(), 1u);

@@ -17,7 +17,7 @@
 namespace touchmark::bench::cli {
 namespace {
 
-std::size_t column_index(const std::string& column) {
+std::size_t proxy_column(const std::string& column) {
   return index_of(column, results::names_of(experiments::proxy::proxy_columns()));
 }
 
@@ -31,10 +31,10 @@ TEST(ProxyCommand, CountsCrossingsAndItsFilesAreValid) {
   ASSERT_EQ(rows.size(), 5U) << "two methods, balls and points apart";
   EXPECT_EQ(rows[0], results::names_of(experiments::proxy::proxy_columns()));
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    EXPECT_EQ(rows[i][column_index("method")], i <= 2 ? "penalty" : "virtual-proxy");
-    EXPECT_EQ(rows[i][column_index("ticks")], "200");
+    EXPECT_EQ(rows[i][proxy_column("method")], i <= 2 ? "penalty" : "virtual-proxy");
+    EXPECT_EQ(rows[i][proxy_column("ticks")], "200");
     if (i > 2) continue;
-    EXPECT_GT(std::stoi(rows[i][column_index("crossings")]), 0);
+    EXPECT_GT(std::stoi(rows[i][proxy_column("crossings")]), 0);
   }
   EXPECT_NE(content_of(folder.file("out/stab.csv")).find("surface,0"), std::string::npos);
   const Outcome valid = run_touchmark({"validate", folder.file("out")});
@@ -50,9 +50,9 @@ TEST(ProxyCommand, TellsTheBareQueryOfTheDetectorBesideTheTick) {
   const auto rows = table_in(folder.file("out/proxy.csv"));
   ASSERT_EQ(rows.size(), 5U);
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const std::string &median = rows[i][column_index("query_p50_ns")],
-                      &late = rows[i][column_index("query_p999_ns")];
-    if (rows[i][column_index("method")] == "penalty") {
+    const std::string &median = rows[i][proxy_column("query_p50_ns")],
+                      &late = rows[i][proxy_column("query_p999_ns")];
+    if (rows[i][proxy_column("method")] == "penalty") {
       EXPECT_EQ(median + late, "") << "it has no detector";
     } else {
       EXPECT_GT(std::atoi(median.c_str()), 0);
@@ -66,7 +66,7 @@ TEST(ProxyCommand, CountsTheSameAgain) {
   const auto counted = [](const std::string& path) {
     auto rows = table_in(path);
     for (auto& row : rows) {
-      row.resize(column_index("p50_ns"));
+      row.resize(proxy_column("p50_ns"));
       row.erase(row.begin() + 1);  // the run's id
     }
     return rows;

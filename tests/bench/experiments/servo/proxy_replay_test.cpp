@@ -23,7 +23,6 @@ namespace touchmark::bench::experiments::servo {
 namespace {
 
 constexpr double radius = 0.125;
-constexpr std::int64_t ms = 1'000'000;
 
 /// Sees no surface.
 class Blind {
@@ -78,7 +77,7 @@ class ProxyReplayTest : public testing::Test {
 
 TEST_F(ProxyReplayTest, ComesToTheSameThoughTicksWereLost) {
   SimulatedClock clock;
-  clock.late_by[12] = 3 * ms + 1;  // two ticks are lost, and their goals never seen
+  clock.late_by[12] = 3'000'001;  // two ticks are lost, and their goals never seen
   const auto records = loop<BruteForce>(clock, 60);
   ProxyReplay replay = this->replay<BruteForce>();
   replay.place();

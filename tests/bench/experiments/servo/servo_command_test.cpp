@@ -8,14 +8,12 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 
-#include "bench/support/files/csv_reader.h"
+#include "tests/bench/cli/csv_fields.h"
 #include "tests/bench/cli/run_touchmark.h"
 #include "tests/temporary_folder.h"
 
 namespace touchmark::bench::cli {
 namespace {
-
-using Fields = std::vector<std::string>;
 
 class Servo : public testing::Test {
  protected:
@@ -24,18 +22,7 @@ class Servo : public testing::Test {
     command.insert(command.end(), more.begin(), more.end());
     return run_touchmark(command);
   }
-  /// Each record as a map from column to field.
-  std::vector<std::map<std::string, std::string>> read(const std::string& name) const {
-    support::CsvReader reader(folder_.file("out/" + name));
-    Fields header, fields;
-    reader.next(header);
-    std::vector<std::map<std::string, std::string>> records;
-    while (reader.next(fields)) {
-      auto& record = records.emplace_back();
-      for (std::size_t i = 0; i < header.size(); ++i) record[header[i]] = fields.at(i);
-    }
-    return records;
-  }
+  std::vector<Row> read(const std::string& name) const { return rows_of(folder_.file("out/" + name)); }
   void expect_valid() const {
     const Outcome outcome = run_touchmark({"validate", folder_.file("out")});
     EXPECT_EQ(outcome.status, 0) << outcome.out;

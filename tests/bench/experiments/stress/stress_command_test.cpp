@@ -12,12 +12,12 @@
 namespace touchmark::bench::cli {
 namespace {
 
-Outcome hostile(std::vector<std::string> arguments) {
+Outcome hostile_stress(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {TOUCHMARK_HOSTILE_PROGRAM, "stress"});
   return run_program_at(arguments);
 }
 
-std::size_t column_index(const std::string& column) {
+std::size_t stress_column(const std::string& column) {
   return index_of(column, results::names_of(experiments::stress::stress_columns()));
 }
 
@@ -36,13 +36,13 @@ TEST(Stress, ExactContestantsAreCleanAndItsFilesSaySo) {
   EXPECT_EQ(rows[0], results::names_of(experiments::stress::stress_columns()));
   for (std::size_t i = 1; i < rows.size(); ++i) {
     ASSERT_EQ(rows[i].size(), rows[0].size());
-    const bool empty = rows[i][column_index("family")] == "empty-mesh";
-    EXPECT_EQ(rows[i][column_index("detector")], i <= 4 ? "aabb-tree" : "brute-force");
-    EXPECT_EQ(rows[i][column_index("status")], empty ? "refused" : "ok");
-    EXPECT_EQ(rows[i][column_index("refusals")], empty ? "1" : "0");
-    EXPECT_EQ(rows[i][column_index("meshes")], empty ? "1" : "3");
-    EXPECT_EQ(rows[i][column_index("missed")], "0");
-    EXPECT_GT(std::stoi("0" + rows[i][column_index("probes")]), empty ? -1 : 80);
+    const bool empty = rows[i][stress_column("family")] == "empty-mesh";
+    EXPECT_EQ(rows[i][stress_column("detector")], i <= 4 ? "aabb-tree" : "brute-force");
+    EXPECT_EQ(rows[i][stress_column("status")], empty ? "refused" : "ok");
+    EXPECT_EQ(rows[i][stress_column("refusals")], empty ? "1" : "0");
+    EXPECT_EQ(rows[i][stress_column("meshes")], empty ? "1" : "3");
+    EXPECT_EQ(rows[i][stress_column("missed")], "0");
+    EXPECT_GT(std::stoi("0" + rows[i][stress_column("probes")]), empty ? -1 : 80);
   }
   EXPECT_EQ(run_touchmark({"validate", folder.file("out")}).status, 0)
       << run_touchmark({"validate", folder.file("out")}).out;
@@ -56,7 +56,7 @@ TEST(Stress, SaysTheSameAgain) {
                    folder.file(name)});
     tables.push_back(table_in(folder.file(name) + "/stress.csv"));
     for (std::vector<std::string>& row : tables.back())
-      row[column_index("run_id")] = row[column_index("ns_per_query")] = "";
+      row[stress_column("run_id")] = row[stress_column("ns_per_query")] = "";
   }
   EXPECT_EQ(tables[0], tables[1]);
   EXPECT_EQ(tables[0].size(), 3U);
@@ -64,30 +64,30 @@ TEST(Stress, SaysTheSameAgain) {
 
 TEST(Stress, ALieIsCaughtWithStatusOne) {
   const TemporaryFolder folder;
-  const Outcome outcome = hostile({"--detector", "lies", "--detector", "honest", "--family", "thresholds",
-                                   "--probes", "60", "--out", folder.path()});
+  const Outcome outcome = hostile_stress({"--detector", "lies", "--detector", "honest", "--family",
+                                          "thresholds", "--probes", "60", "--out", folder.path()});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.out.find("BROKEN lies: thresholds"), std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.out.find("BROKEN honest"), std::string::npos) << outcome.out;
   for (const auto& row : table_in(folder.file("stress.csv"))) {
-    if (row[column_index("detector")] != "lies" || row[column_index("query")] != "nearest") continue;
-    EXPECT_GT(std::stoi(row[column_index("beyond_bound")]), 0);
-    EXPECT_EQ(row[column_index("status")], "inexact");
+    if (row[stress_column("detector")] != "lies" || row[stress_column("query")] != "nearest") continue;
+    EXPECT_GT(std::stoi(row[stress_column("beyond_bound")]), 0);
+    EXPECT_EQ(row[stress_column("status")], "inexact");
   }
 }
 
 TEST(Stress, ACrashAndAHangOfAnExactContestantAreStatusOneAndCounted) {
   const TemporaryFolder folder;
   const Outcome outcome =
-      hostile({"--detector", "aborts", "--detector", "hangs", "--detector", "refuses", "--family", "tangent",
-               "--probes", "30", "--timeout", "1", "--out", folder.path()});
+      hostile_stress({"--detector", "aborts", "--detector", "hangs", "--detector", "refuses", "--family",
+                      "tangent", "--probes", "30", "--timeout", "1", "--out", folder.path()});
   EXPECT_EQ(outcome.status, 1) << outcome.out << outcome.err;
   for (const auto& row : table_in(folder.file("stress.csv"))) {
-    if (row[column_index("query")] != "nearest") continue;
-    const std::string detector = row[column_index("detector")];
-    EXPECT_EQ(row[column_index("crashes")], detector == "aborts" ? "1" : "0");
-    EXPECT_EQ(row[column_index("timeouts")], detector == "hangs" ? "1" : "0");
-    EXPECT_EQ(row[column_index("refusals")], detector == "refuses" ? "1" : "0");
+    if (row[stress_column("query")] != "nearest") continue;
+    const std::string detector = row[stress_column("detector")];
+    EXPECT_EQ(row[stress_column("crashes")], detector == "aborts" ? "1" : "0");
+    EXPECT_EQ(row[stress_column("timeouts")], detector == "hangs" ? "1" : "0");
+    EXPECT_EQ(row[stress_column("refusals")], detector == "refuses" ? "1" : "0");
   }
   EXPECT_EQ(run_touchmark({"validate", folder.path()}).status, 0);
 }
@@ -113,13 +113,13 @@ TEST(Stress, ValidateSeesAFileThatContradictsItself) {
 }
 
 TEST(Stress, RefusingIsNoBrokenClaim) {
-  const Outcome alone = hostile({"--detector", "refuses", "--family", "tangent", "--probes", "30"});
+  const Outcome alone = hostile_stress({"--detector", "refuses", "--family", "tangent", "--probes", "30"});
   EXPECT_EQ(alone.status, 4) << "nothing was judged";
   EXPECT_NE(alone.out.find("nothing judged"), std::string::npos) << alone.out;
-  EXPECT_EQ(
-      hostile({"--detector", "refuses", "--detector", "honest", "--family", "tangent", "--probes", "30"})
-          .status,
-      0);
+  EXPECT_EQ(hostile_stress(
+                {"--detector", "refuses", "--detector", "honest", "--family", "tangent", "--probes", "30"})
+                .status,
+            0);
 }
 
 TEST(Stress, RefusesBadOptionsInOneLine) {

@@ -44,8 +44,8 @@ class LastQuestionOf : public testing::Test {
   }
 };
 
-using Detectors = testing::Types<SphereCluster, GridGroup>;
-TYPED_TEST_SUITE(LastQuestionOf, Detectors);
+using RememberingDetectors = testing::Types<SphereCluster, GridGroup>;
+TYPED_TEST_SUITE(LastQuestionOf, RememberingDetectors);
 
 TYPED_TEST(LastQuestionOf, NearestIsAskedAgain) {
   this->expect_asked_again([this](typename TypeParam::Session& session) {

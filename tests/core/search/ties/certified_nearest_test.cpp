@@ -26,8 +26,6 @@
 namespace touchmark {
 namespace {
 
-constexpr double unit_roundoff = 0x1p-53;
-
 std::vector<NamedMesh> meshes() {
   std::vector<NamedMesh> all = corner_case_meshes();
   CornerCases cases(70);
