@@ -35,6 +35,7 @@ struct Tally {
   std::uint64_t unfinished = 0;  ///< ticks that their limit of work ended, which are not judged by their ends
   double max_lag = 0;            ///< m, the farthest from where the proxy would be without that limit
   measurement::LatencyHistogram times;
+  std::uint64_t preempted = 0;  ///< ticks in each replay of which others took the core: their times hold that
   measurement::LatencyHistogram
       bare_times;  ///< what the bare query takes at the same goals, between the ticks
 };

@@ -38,7 +38,7 @@ constexpr std::uint64_t max_ticks = 1'000'000'000'000;
 
 struct ProxyOptions {
   std::vector<std::string> methods, families;
-  std::string ticks, seed = "1", detector = "sphere-cluster";
+  std::string ticks, replays = "3", seed = "1", detector = "sphere-cluster";
   std::string mesh, trajectory, radius = "0.5%", trace, out;
   CouplingSelectors coupling;
 };
@@ -53,6 +53,7 @@ proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::R
   if (request.methods.empty()) request.methods = proxies::all_methods(roster);
   request.ticks =
       support::checked_count("--ticks", options.ticks.empty() ? "100000" : options.ticks, 1, max_ticks);
+  request.replays = support::checked_count("--replays", options.replays, 1, 1000);
   request.seed = support::checked_count("--seed", options.seed, 0, UINT32_MAX);
   request.detector = roster.parse_all({options.detector}).front().text();
   request.coupling = checked_coupling(options.coupling);
@@ -170,6 +171,8 @@ void add_proxy(CLI::App& program, ProgramContext& context) {
   add_list(*command, "--family", options->families, "F", "one of those below; repeatable; default: all");
   add_value(*command, "--ticks", options->ticks, "N",
             "of all families together, about; default: 100000; with --mesh at most so many");
+  add_value(*command, "--replays", options->replays, "N",
+            "how often each way is run: a tick's time is the least of these; 1 where only crossings matter");
   add_value(*command, "--seed", options->seed, "N", "of all meshes and motions");
   add_value(*command, "--detector", options->detector, "D",
             "which of ours answers methods that claim never to cross");

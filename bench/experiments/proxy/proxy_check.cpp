@@ -16,12 +16,13 @@ namespace validation = results::validation;
 namespace {
 
 /// Columns that count ticks, each at most once.
-constexpr std::array of_ticks{"crossings",   "pops",       "violations", "missed_goals",  "contact_ticks",
-                              "stuck_ticks", "unanswered", "rest_ticks", "optimum_ticks", "stopped_short"};
+constexpr std::array of_ticks{"crossings",     "pops",          "violations", "missed_goals",
+                              "contact_ticks", "stuck_ticks",   "unanswered", "rest_ticks",
+                              "optimum_ticks", "stopped_short", "preempted"};
 
-/// Columns that files of the first releases do not have: those of the bare query, stopped_short,
-/// and what a limit of work does.
-constexpr std::size_t newer_columns = 5;
+/// Columns that files of the first releases do not have: those of the bare query, stopped_short, what a limit
+/// of work does, and preempted.
+constexpr std::size_t newer_columns = 6;
 
 void check_numbers(const validation::RowCheck& row) {
   const std::uint64_t ticks = row.count("ticks"), rests = row.count("rest_ticks");

@@ -80,7 +80,7 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
      "The most energy that the device got over one closed turn of the goal, in J."},
     {"work_per_tick", [](S score) { return per_tick(score.tally.work, score.tally.ticks); }, optional, finite,
      "Triangles, boxes and whatever else was looked at."},
-    {"p50_ns", percentile<500>, always, whole_number, "A whole tick's time, percentiles by nearest rank."},
+    {"p50_ns", percentile<500>, always, whole_number, "A whole tick's time, the least of its replays; percentiles by nearest rank."},
     {"p999_ns", percentile<999>, always, whole_number, ""},
     {"max_ns", [](S score) { return fmt::format("{}", score.tally.times.max_ns()); }, always, whole_number, ""},
     {"query_p50_ns", bare_percentile<500>, optional, whole_number,
@@ -92,6 +92,8 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
      "Ticks that their limit of work ended; their ends are not judged."},
     {"max_lag", text<&Score::tally, &T::max_lag>, always, finite,
      "The proxy's largest distance from where it would be without that limit, in m; 0 without one."},
+    {"preempted", text<&Score::tally, &T::preempted>, always, whole_number,
+     "Ticks in each replay of which others took the core: their times hold that."},
 });
 
 }  // namespace

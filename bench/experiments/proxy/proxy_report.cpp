@@ -118,7 +118,7 @@ std::string proxy_json(const results::RunDescription& description, const ProxyRu
   Json json = results::run_circumstances(description);
   const ProxyRequest& request = run.request();
   json["contestants"] = Json::array();  // methods are told below
-  json["proxy"] = {{"ticks", request.ticks}, {"detector", request.detector}};
+  json["proxy"] = {{"ticks", request.ticks}, {"replays", request.replays}, {"detector", request.detector}};
   json["proxy"].update(coupling_json(request.coupling));
   Json methods = Json::array(), families = Json::array();
   for (const MethodSpec& method : request.methods)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -9,6 +10,7 @@
 
 #include "bench/oracle/exact/moving_meeting.h"
 #include "bench/support/system/interrupt.h"
+#include "bench/support/system/own_time.h"
 
 namespace touchmark::bench::experiments::proxy {
 namespace {
@@ -39,11 +41,16 @@ proxies::Passage passage(const Course& course, std::size_t change, const Triangl
              const Vec3& from, const Vec3& to) { return oracle.meets(from + shift, to); };
 }
 
-}  // namespace
+/// What a tick took at least, over the replays of its course.
+struct TickTimes {
+  static constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+  std::int64_t step = none, query = none;  ///< ns
+  bool was_preempted = true;               ///< in each of them
+};
 
-void run_course(const contestants::Roster& roster, const Course& course, const std::vector<Vec3>& optima,
-                const MethodSpec& method, const Coupling& coupling, const std::string& detector, Tally& tally,
-                const Seen& seen) {
+void run_once(const contestants::Roster& roster, const Course& course, const std::vector<Vec3>& optima,
+              const MethodSpec& method, const Coupling& coupling, const std::string& detector, Tally& tally,
+              const Seen& seen, std::vector<TickTimes>& times) {
   auto oracle = std::make_unique<const proxies::WayOracle>(course.mesh);
   const std::vector<Vec3> places = course.places ? course.places(0) : std::vector<Vec3>();
   const std::unique_ptr<proxies::ProxyMethod> proxy =
@@ -66,17 +73,37 @@ void run_course(const contestants::Roster& roster, const Course& course, const s
           *next, [] {}, passage(course, change, last, mesh, *next));  // which still asks the last one
       oracle = std::move(next);
     }
+    TickTimes& least = times[tick];
     const Clock::time_point asked = Clock::now();
-    if (proxy->ask_nearest(course.goals[tick])) tally.bare_times.add(ns_since(asked));
+    if (proxy->ask_nearest(course.goals[tick])) least.query = std::min(least.query, ns_since(asked));
+    const long preemptions = support::preemptions_so_far();
     const Clock::time_point before = Clock::now();
     proxy->step(course.goals[tick], step);
-    const std::int64_t ns = ns_since(before);
-    tally.times.add(ns);
+    least.step = std::min(least.step, ns_since(before));
+    least.was_preempted = least.was_preempted && support::preemptions_so_far() != preemptions;
     judge.tick(tick, step);
     tally.max_lag = std::max(tally.max_lag, proxy->lag(course.goals[tick]));
-    if (seen) seen(tick, step, ns);
+    if (seen) seen(tick, step, least.step);
   }
   tally.work += proxy->work();
+}
+
+}  // namespace
+
+void run_course(const contestants::Roster& roster, const Course& course, const std::vector<Vec3>& optima,
+                const MethodSpec& method, const Coupling& coupling, const std::string& detector, Tally& tally,
+                const Seen& seen, std::uint64_t replays) {
+  std::vector<TickTimes> times(course.goals.size());
+  for (std::uint64_t left = replays; left-- > 0;) {
+    Tally uncounted;
+    run_once(roster, course, optima, method, coupling, detector, left == 0 ? tally : uncounted,
+             left == 0 ? seen : nullptr, times);
+  }
+  for (const TickTimes& least : times) {
+    tally.times.add(least.step);
+    tally.preempted += least.was_preempted ? 1 : 0;
+    if (least.query != TickTimes::none) tally.bare_times.add(least.query);
+  }
 }
 
 ProxyRun::ProxyRun(const contestants::Roster& roster, ProxyRequest request)
@@ -125,7 +152,7 @@ void ProxyRun::run_course_of(const std::string& family, const Course& course,
                course.friction > 0 ? std::vector<Vec3>()
                : as_point          ? point_optima
                                    : optima,
-               method, coupling, request_.detector, score.tally, watch);
+               method, coupling, request_.detector, score.tally, watch, request_.replays);
     ++score.courses;
   }
 }

@@ -24,6 +24,7 @@ struct ProxyRequest {
   std::uint64_t seed = 1;
   Coupling coupling;     ///< the radius and the friction are the courses'
   std::string detector;  ///< for `certified`
+  std::uint64_t replays = 3;
 };
 
 /// A method and a family, balls and bare points apart.
@@ -41,12 +42,14 @@ struct Score {
   bool broken() const { return method.info->claims && tally.crossings + tally.violations > 0; }
 };
 
-/// Runs a method over a course. `seen(tick, step, ns)` may look at each tick. Throws what the method's making
-/// throws. Where the start is not free the method's ticks count from when it is off the surface.
+/// Runs a method over a course, several times the same way: a tick's time is the least of these. The oracle
+/// judges between the ticks of each, so that all find the same caches; the last one counts, and
+/// `seen(tick, step, ns)` may look at its ticks. Throws what the method's making throws. Where the start is
+/// not free the method's ticks count from when it is off the surface.
 using Seen = std::function<void(std::size_t tick, const Step& step, std::int64_t ns)>;
 void run_course(const contestants::Roster& roster, const Course& course, const std::vector<Vec3>& optima,
                 const MethodSpec& method, const Coupling& coupling, const std::string& detector, Tally& tally,
-                const Seen& seen = nullptr);
+                const Seen& seen = nullptr, std::uint64_t replays = 1);
 
 class ProxyRun {
  public:

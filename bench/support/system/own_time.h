@@ -22,6 +22,13 @@ inline long waits_so_far() noexcept {
   return used.ru_nvcsw;
 }
 
+/// Returns how often others have taken this thread's core.
+inline long preemptions_so_far() noexcept {
+  rusage used{};
+  ::getrusage(RUSAGE_THREAD, &used);
+  return used.ru_nivcsw;
+}
+
 /// The time of what this thread does from the construction on, without what others took of its core. Where it
 /// waits, as a plug-in does that has another thread, process or device do its work, there is no such time: it
 /// is the time that passed.

@@ -1,14 +1,19 @@
 /// The courses of the proxy suite and the published algorithms on them.
 #include <algorithm>
+#include <atomic>
 #include <iterator>
+#include <memory>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include "bench/contestants/built_in.h"
 #include "bench/experiments/proxy/proxy_run.h"
+#include "bench/support/system/own_time.h"
 
 namespace touchmark::bench::experiments::proxy {
 namespace {
@@ -93,6 +98,7 @@ std::vector<Score> scores_of(const std::string& method, const std::string& detec
   request.methods.push_back(proxies::method_named(method));
   request.ticks = ticks * families().size();
   request.detector = detector;
+  request.replays = 1;
   ProxyRun run(contestants::roster(), request);
   run.run([](const std::string&) {});
   return run.scores();
@@ -179,6 +185,66 @@ TEST(ProxyMethods, RefuseWhatIsNoMethodOrOption) {
   EXPECT_THROW(proxies::method_named("penalty:epsilon=1"), std::invalid_argument);
   EXPECT_THROW(proxies::method_named("finger-proxy:epsilon=-1"), std::invalid_argument);
   EXPECT_EQ(proxies::method_named("finger-proxy:epsilon=1e-3").values.number("epsilon"), 1e-3);
+}
+
+/// Follows its goal anywhere. The first so many that are made lose their core in each step.
+class Disturbed : public proxies::ProxyMethod {
+ public:
+  static inline int left = 0;
+
+  void place(const Vec3& position) override { position_ = position; }
+  void update(const TriangleMesh& mesh) override { static_cast<void>(mesh); }
+  void step(const Vec3& goal, Step& step) override {
+    step.begin(position_);
+    step.go(position_ = goal);
+    const long before = support::preemptions_so_far();
+    while (is_disturbed_ && support::preemptions_so_far() == before) {
+    }
+  }
+  std::uint64_t work() const override { return 1; }
+
+ private:
+  Vec3 position_ = Vec3::Zero();
+  const bool is_disturbed_ = left-- > 0;
+};
+
+TEST(ProxyRun, ATicksTimeIsTheLeastOfItsReplaysAndThatOfOneAlwaysPreemptedIsCounted) {
+  cpu_set_t allowed, core;
+  ASSERT_EQ(sched_getaffinity(0, sizeof allowed, &allowed), 0);
+  CPU_ZERO(&core);
+  CPU_SET(static_cast<unsigned>(sched_getcpu()), &core);
+  ASSERT_EQ(sched_setaffinity(0, sizeof core, &core), 0);
+  std::atomic<bool> ends{false};
+  std::thread other([&] {  // on the same core
+    while (!ends) {
+    }
+  });
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const Course course{"straight", mesh, 0, 0, {0, 0, 1}, std::vector<Vec3>(5, {0, 0, 2})};
+  const proxies::MethodInfo info{
+      .name = "disturbed",
+      .meaning = "",
+      .options = {},
+      .rests_on = "",
+      .make = [](const proxies::MethodRequest&) {
+        return std::unique_ptr<proxies::ProxyMethod>(std::make_unique<Disturbed>());
+      }};
+  const auto run = [&](int disturbed, std::uint64_t replays) {
+    Disturbed::left = disturbed;
+    Tally tally;
+    run_course(contestants::roster(), course, {}, {&info, "", proxies::MethodOptions({})}, {}, "", tally,
+               nullptr, replays);
+    return tally;
+  };
+  const Tally always = run(3, 3), once = run(2, 3);
+  ends = true;
+  other.join();
+  sched_setaffinity(0, sizeof allowed, &allowed);
+  EXPECT_EQ(always.preempted, 5U);
+  EXPECT_LT(once.preempted, 5U);
+  EXPECT_LT(once.times.percentile(0.5), always.times.percentile(0.5) / 10);
+  EXPECT_EQ(once.ticks, 5U);
+  EXPECT_EQ(once.work, 1U);
 }
 
 }  // namespace
