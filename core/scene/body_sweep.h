@@ -79,6 +79,9 @@ class BodySweep {
     return query.for_each_within(around.reach, [&](const ImageCandidate& candidate) {
       if (candidate.distance.lower > around.reach) return false;
       if (work.exceeds_limit()) return true;
+      if (sweep_.radius == 0)
+        if (const std::optional<bool> meets = meets_by_sides(candidate.posed, sweep_.from, sweep_.to))
+          return *meets;
       ++work.exact_decisions;
       return path_within_exactly(candidate.posed, sweep_.from, sweep_.to, 1, sweep_.radius);
     });

@@ -1,8 +1,12 @@
 #include "core/scene/posed_predicates.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/exact/big_integer.h"
+#include "core/exact/double_double.h"
+#include "core/exact/double_double_vector.h"
 #include "core/exact/exact_closest_point.h"
 #include "core/scene/image_lattice.h"
 
@@ -104,6 +108,49 @@ bool path_within_exactly(const PosedTriangle& triangle, const Vec3& from, const 
   };
   return reaches_the_surface(path.w) ||
          reaches_the_surface({path.w[0] - path.path, path.w[1] - path.path, path.w[2] - path.path});
+}
+
+std::optional<bool> meets_by_sides(const PosedTriangle& triangle, const Vec3& from, const Vec3& to) noexcept {
+  using double_double::cross, double_double::dot;
+  using SeenFromStart = double_double::Vector;
+  const SeenFromStart way = double_double::difference(to, from);
+  std::array<SeenFromStart, 3> corner;
+  double terms = 0, largest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const DoubleDouble shift = two_sum(triangle.pose->translation[row], -from[row]);
+    const double length = std::abs(triangle.pose->translation[row]) + std::abs(from[row]);
+    largest = std::max(largest, std::abs(way[k].high));
+    for (std::size_t i = 0; i < 3; ++i) {
+      DoubleDouble sum = shift;
+      double sum_of_terms = length;
+      for (Eigen::Index j = 0; j < 3; ++j) {
+        const DoubleDouble product = two_product(triangle.pose->rotation(row, j), triangle.corner[i][j]);
+        sum = sum + product;
+        sum_of_terms += std::abs(product.high);
+      }
+      corner[i][k] = sum;
+      terms = std::max(terms, sum_of_terms);
+      largest = std::max(largest, std::abs(sum.high));
+    }
+  }
+  const double error = 0x1p-100 * terms;
+  if (!(std::max(terms, largest) < 0x1p300 && largest > std::max(0x1p-200, 0x1p10 * error)))
+    return std::nullopt;
+  const double bound = largest * largest * (20 * error + 0x1p-94 * largest);
+  const auto sign = [bound](const DoubleDouble& x, double times) {
+    return x.high > times * bound ? 1 : x.high < -times * bound ? -1 : 0;
+  };
+  const SeenFromStart opposite = cross(corner[1], corner[2]);
+  const DoubleDouble start = -dot(corner[0], opposite);
+  const std::array<DoubleDouble, 3> edge = {dot(way, cross(corner[0], corner[1])), dot(way, opposite),
+                                            dot(way, cross(corner[2], corner[0]))};
+  const int before = sign(start, 1), after = sign(edge[0] + edge[1] + edge[2] + start, 5);
+  if (before * after > 0) return false;
+  const auto [least, most] = std::minmax({sign(edge[0], 1), sign(edge[1], 1), sign(edge[2], 1)});
+  if (least < 0 && most > 0) return false;
+  if (before * after < 0 && least * most > 0) return true;
+  return std::nullopt;
 }
 
 bool lies_inside(const PosedTriangle& triangle, const Vec3& point) noexcept {

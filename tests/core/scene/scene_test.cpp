@@ -3,12 +3,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
 #include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/core/scene/random_pose.h"
 #include "tests/core/scene/square_bodies.h"
 
 namespace touchmark {
@@ -32,6 +34,47 @@ TEST(Scene, AnswersWithTheBodyThatIsNearest) {
   EXPECT_EQ(contact->contact.point, Vec3(0.5, 0.25, 0));
   EXPECT_EQ(scene.nearest_body({{0.5, 0.25, 2}, 0}, 5, session)->body, high);
   EXPECT_FALSE(scene.nearest_body({{0.5, 0.25, 1.5}, 0}, 1, session));
+}
+
+/// Past an edge, or to the plane, by one ulp on either side.
+TEST(Scene, SidesDecideASweepOfABarePointToTheUlp) {
+  Pose turned = at(2, 0, 0);
+  turned.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // a quarter: the square is the same again
+  for (const Pose& pose : {at(0, 0, 0), at(2, 0, 0), turned}) {
+    Scene<SphereCluster> scene;
+    scene.add(scene.add_shape(Shape<SphereCluster>::build(square())), pose);
+    Scene<SphereCluster>::Session session;
+    const Vec3 t = pose.translation;
+    const auto hits = [&](const Vec3& from, const Vec3& to) {
+      return scene.first_hit({from, to, 0}, session).has_value();
+    };
+    const double edge = t.x() + 1;
+    for (const auto& [x, expected] : {std::pair{std::nextafter(edge, 0), true}, std::pair{edge, true},
+                                      std::pair{std::nextafter(edge, 9), false}}) {
+      EXPECT_EQ(hits({x, 0.25, 1}, {x, 0.25, -1}), expected) << x;
+      EXPECT_EQ(hits({x, 0.25, -1}, {x, 0.25, 1}), expected) << x;
+    }
+    for (const auto& [z, expected] :
+         {std::pair{-0x1p-60, true}, std::pair{0.0, true}, std::pair{0x1p-60, false}}) {
+      EXPECT_EQ(hits(t + Vec3(0.5, 0.25, 1), t + Vec3(0.5, 0.25, z)), expected) << z;
+      EXPECT_EQ(hits(t + Vec3(0.5, 0.25, z), t + Vec3(0.5, 0.25, 1)), expected) << z;
+    }
+  }
+}
+
+/// Whole numbers take ten times as long, and each counts as 64 looks where work is limited.
+TEST(Scene, SweepsOfBarePointsTakeHardlyAnyWholeNumbers) {
+  Scene<SphereCluster> scene;
+  test::Random random(5);
+  scene.add(scene.add_shape(Shape<SphereCluster>::build(square())), test::random_pose(random, {1, 2, 3}));
+  Scene<SphereCluster>::Session session;
+  int hits = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 from = Vec3(1, 2, 3) + random.point(1), to = Vec3(1, 2, 3) + random.point(1);
+    hits += scene.first_hit({from, to, 0}, session) ? 1 : 0;
+  }
+  EXPECT_GT(hits, 100);
+  EXPECT_LT(session.work.exact_decisions, 10U);
 }
 
 TEST(Scene, FollowsBodiesThatMoveAndForgetsThoseRemoved) {
