@@ -32,8 +32,8 @@ bool within_exactly(const PosedTriangle& triangle, const Vec3& point, double rad
 bool path_within_exactly(const PosedTriangle& triangle, const Vec3& from, const Vec3& to, double fraction,
                          double radius) noexcept;
 
-/// What path_within_exactly says of the whole path where all radii are 0, by the sides of the plane and of the
-/// path's line in double-double (docs/exactness.md, E30). Nothing where these leave it open.
+/// What path_within_exactly says of the whole path where all radii are 0, by the sides of the plane and of
+/// the path's line in double-double (docs/exactness.md, E30). Nothing where these leave it open.
 std::optional<bool> meets_by_sides(const PosedTriangle& triangle, const Vec3& from, const Vec3& to) noexcept;
 
 /// Is the point nearer to the axis than the surface is? Exact, for finite numbers.
