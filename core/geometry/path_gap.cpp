@@ -256,8 +256,8 @@ PathGap::Approach PathGap::approach_to(Nearest feature, double fraction) const n
   return {value, 0x1p-91 * square, -rounded(offset).dot(path_), error_ * length_, across.squaredNorm()};
 }
 
-/// Tells the same of an edge or a corner, times the edge's squared length, all in double-double: right where the
-/// path is nearly parallel to the edge, or where the ball is tiny.
+/// Tells the same of an edge or a corner, times the edge's squared length, all in double-double: right where
+/// the path is nearly parallel to the edge, or where the ball is tiny.
 PathGap::Approach PathGap::careful_approach_to(Nearest feature, double fraction) const noexcept {
   const Vec3& corner = triangle_.corner[feature.first];
   const DoubleDoubles path = difference(sweep_.to, sweep_.from),
