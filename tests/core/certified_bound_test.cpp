@@ -69,7 +69,7 @@ TEST_P(CertifiedBound, IsKeptEvenUphill) {
     }
     worst = std::max(worst, height);
   }
-  RecordProperty("worst_error_of_the_scan", std::to_string(worst));
+  RecordProperty("worst_error_in_roundings", std::to_string(worst));
 }
 
 /// Two triangles exactly as far from a centre, on its diagonal: the coordinates of the one are those of the

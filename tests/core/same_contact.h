@@ -9,7 +9,7 @@
 
 namespace touchmark::test {
 
-/// Of everything that an answer records.
+/// Compares everything that an answer records.
 inline bool same_bits(const std::optional<Contact>& a, const std::optional<Contact>& b) {
   using bench::workload::Answer;
   const Answer left = a ? Answer::of(*a) : Answer{}, right = b ? Answer::of(*b) : Answer{};

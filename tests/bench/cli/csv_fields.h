@@ -1,7 +1,6 @@
 /// What a command left in a CSV file, by the names of columns.
 #pragma once
 
-#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -28,16 +27,10 @@ inline std::vector<Row> rows_of(const std::string& path) {
 
 /// Each record's fields of these columns, which must be there.
 inline std::vector<Fields> fields_in(const std::string& path, const Fields& columns) {
-  support::CsvReader reader(path);
-  Fields header, fields;
-  reader.next(header);
   std::vector<Fields> records;
-  while (reader.next(fields)) {
+  for (const Row& row : rows_of(path)) {
     Fields& record = records.emplace_back();
-    for (const std::string& column : columns) {
-      const auto at = std::find(header.begin(), header.end(), column) - header.begin();
-      record.push_back(fields.at(static_cast<std::size_t>(at)));
-    }
+    for (const std::string& column : columns) record.push_back(row.at(column));
   }
   return records;
 }

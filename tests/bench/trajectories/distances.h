@@ -11,7 +11,7 @@
 
 namespace touchmark::bench::trajectories {
 
-/// Of each place, in mesh units.
+/// Returns the distance of each place from the mesh, in mesh units.
 inline std::vector<double> distances(const std::vector<Vec3>& way, const TriangleMesh& mesh) {
   const AabbTree detector = AabbTree::build(mesh);
   AabbTree::Session session;

@@ -1,4 +1,5 @@
 /// `touchmark update` from the outside, and what it moves.
+#include <algorithm>
 #include <string>
 #include <vector>
 
