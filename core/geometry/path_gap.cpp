@@ -278,6 +278,24 @@ Result PathGap::in_unit(Result (PathGap::*ask)(Argument) const noexcept, Argumen
   return (PathGap(triangle, sweep).*ask)(argument);
 }
 
+std::optional<bool> PathGap::touches_at(double fraction) const noexcept {
+  if (unit_ != 1) return in_unit(&PathGap::touches_at, fraction);
+  const std::optional<Nearest> feature = nearest_feature(corners_to(fraction));
+  if (!feature) return std::nullopt;
+  const Approach to = approach_to(*feature, fraction);
+  if (to.value > to.value_error) return false;
+  return to.value < -to.value_error ? std::optional(true) : std::nullopt;
+}
+
+std::optional<bool> PathGap::touches_until(double fraction) const noexcept {
+  if (unit_ != 1) return in_unit(&PathGap::touches_until, fraction);
+  const Approach plane = approach_to({3, 0}, 0);
+  const double start = plane.value - plane.value_error;
+  const double end = start - 2 * fraction * (plane.fall + plane.fall_error);
+  if (start > 0 && end > 0x1p-50 * start) return false;
+  return touches_at(fraction) == true ? std::optional(true) : std::nullopt;
+}
+
 std::optional<double> PathGap::precise_touch(double fraction) const noexcept {
   constexpr int max_steps = 4;
   constexpr double margin = 64 * unit_roundoff, narrow = 0x1.8p-51;

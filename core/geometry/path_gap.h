@@ -50,6 +50,13 @@ class PathGap {
   /// that a slope alone does not tell this of a ball that slides along an edge.
   bool stays_apart(double fraction, const Sample& there, double end) const noexcept;
 
+  /// Returns true if the ball touches at the fraction, false if it does not, by a distance in double-double.
+  /// Nothing where that leaves it open: docs/exactness.md, E16.
+  std::optional<bool> touches_at(double fraction) const noexcept;
+  /// Returns the same of all fractions up to this one: false if the triangle's plane keeps ball and triangle
+  /// apart.
+  std::optional<bool> touches_until(double fraction) const noexcept;
+
   /// Returns a fraction that is not later than a ball's first touch, and earlier by less than 2^-50. Nothing
   /// where double-doubles do not tell it. The path touches, and not before `fraction`: docs/exactness.md,
   /// E16.

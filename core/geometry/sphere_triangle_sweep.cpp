@@ -33,10 +33,12 @@ class FirstTouch {
   bool touches_at_start(const PathGap::Sample& start) noexcept {
     if (start.gap < -start.error) return true;
     if (start.gap > start.error) return false;
+    if (const std::optional<bool> touches = gap_.touches_at(0)) return *touches;
     ++exact_decisions_;
     return within_exactly(triangle_.corner, sweep_.from, sweep_.radius);
   }
   bool comes_within(double fraction) noexcept {
+    if (const std::optional<bool> touches = gap_.touches_until(fraction)) return *touches;
     ++exact_decisions_;
     return path_within_exactly(triangle_.corner, sweep_.from, sweep_.to, fraction, sweep_.radius);
   }

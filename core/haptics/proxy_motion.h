@@ -60,6 +60,8 @@ class ProxyMotion {
   void place(const Vec3& position) noexcept;
   /// Forgets what it knew of the surface, which is now elsewhere.
   void surface_moved(const TriangleMesh* mesh) noexcept;
+  /// Says how large the coordinates of a surface are that is no mesh.
+  void set_surface_size(double largest) noexcept { mesh_size_ = largest; }
 
   const ProxyState& state() const noexcept { return state_; }
   const Vec3& position() const noexcept { return state_.position; }

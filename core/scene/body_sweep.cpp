@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/float_limits.h"
+#include "core/geometry/sphere_triangle_sweep.h"
+
 namespace touchmark {
 
 Contact contact_on_way(const ImageCandidate& seen_from_start, const Sweep& sweep, double fraction) noexcept {
@@ -13,6 +16,20 @@ Contact contact_on_way(const ImageCandidate& seen_from_start, const Sweep& sweep
   Contact contact = contact_on(prepared, Vec3::Zero(), seen_from_start.id);
   contact.point += sweep.from + way;
   return contact;
+}
+
+std::optional<bool> comes_within_rounded(const ImageCandidate& image, const Vec3& seen_from,
+                                         const Sweep& sweep, std::uint64_t& exact_decisions) noexcept {
+  const auto& [a, b, c] = image.seen.corner;
+  const PreparedTriangle triangle = prepare(a, b, c, image.triangle);
+  Sweep seen{sweep.from - seen_from, sweep.to - seen_from, 0};
+  const double error =
+      image.seen.error + 2 * unit_roundoff * (seen.from.norm() + seen.to.norm() + sweep.radius);
+  seen.radius = sweep.radius + error;
+  if (!touch_bounds(triangle, seen, 1, exact_decisions)) return false;
+  seen.radius = sweep.radius - error;
+  if (seen.radius >= 0 && touch_bounds(triangle, seen, 1, exact_decisions)) return true;
+  return std::nullopt;
 }
 
 Around around_way(const Sweep& sweep, double error) noexcept {

@@ -24,6 +24,11 @@ namespace touchmark {
 /// first.
 Contact contact_on_way(const ImageCandidate& seen_from_start, const Sweep& sweep, double fraction) noexcept;
 
+/// Does the way come within the radius of the image, which is seen from that point? By the rounded places of
+/// its corners: nothing where rounding leaves it open.
+std::optional<bool> comes_within_rounded(const ImageCandidate& image, const Vec3& seen_from,
+                                         const Sweep& sweep, std::uint64_t& exact_decisions) noexcept;
+
 /// A ball that holds all that can come within the radius of the way.
 struct Around {
   Vec3 center;
@@ -62,29 +67,39 @@ class BodySweep {
     if (!hit) return std::nullopt;
     // Of an image at the radius the distance in the frame is no less than this.
     const double inner = farther.surely_within(sweep_.radius, of_sweep);
-    if (!(inner >= 0 && shape_.detector->first_hit(in_frame(inner), session_)) && !comes_within(error, work))
-      return std::nullopt;
     const SeenCorners corners(from_.seen());
+    if (!(inner >= 0 && shape_.detector->first_hit(in_frame(inner), session_)) &&
+        !comes_within(hit->contact.triangle, corners, error, work))
+      return std::nullopt;
     return Impact{hit->fraction, contact(*hit, corners)};
   }
 
  private:
   Sweep in_frame(double radius) const noexcept { return {from_.seen().center(), to_.center(), radius}; }
 
-  /// Does the way come within the radius of an image? Exact.
-  bool comes_within(double error, LimitedWork& work) const noexcept {
+  /// Returns true if the way comes within the radius of an image, or the work is at its limit. Begins with
+  /// the triangles that the detector met: all near the way may be many.
+  bool comes_within(TriangleId met, const SeenCorners& corners, double error,
+                    LimitedWork& work) const noexcept {
+    const auto [begin, end] = from_.triangles_of(met);
+    for (std::uint32_t i = begin; i < end; ++i)
+      if (may_meet(from_.seen_as(corners, i), sweep_.from, work)) return true;
     const Around around = around_way(sweep_, error);
     const SeenBody seen(placed_.pose, double{placed_.rigid}, around.center);
     const BodyQuery<D> query(shape_, seen, body_, session_);
     return query.for_each_within(around.reach, [&](const ImageCandidate& candidate) {
-      if (candidate.distance.lower > around.reach) return false;
-      if (work.exceeds_limit()) return true;
-      if (sweep_.radius == 0)
-        if (const std::optional<bool> meets = meets_by_sides(candidate.posed, sweep_.from, sweep_.to))
-          return *meets;
-      ++work.exact_decisions;
-      return path_within_exactly(candidate.posed, sweep_.from, sweep_.to, 1, sweep_.radius);
+      return candidate.id != met && candidate.distance.lower <= around.reach &&
+             may_meet(candidate, around.center, work);
     });
+  }
+  bool may_meet(const ImageCandidate& image, const Vec3& seen_from, LimitedWork& work) const noexcept {
+    if (work.exceeds_limit()) return true;
+    std::optional<bool> known;
+    if (sweep_.radius == 0) known = meets_by_sides(image.posed, sweep_.from, sweep_.to);
+    if (!known) known = comes_within_rounded(image, seen_from, sweep_, work.exact_decisions);
+    if (known) return *known;
+    ++work.exact_decisions;
+    return path_within_exactly(image.posed, sweep_.from, sweep_.to, 1, sweep_.radius);
   }
 
   /// On the triangle that the detector names; of a polygon's the one that is nearest there.

@@ -38,6 +38,8 @@ ShapeId SceneBodies::add_shape(const Aabb& bounds, std::span<const Vec3> vertice
   if (!vertices.empty())
     shape.support = std::make_shared<const SupportTable>(vertices, center, shape.ball.radius, beyond);
   shapes_.push_back(shape);
+  const double largest = std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
+  largest_of_shapes_ = std::max(largest_of_shapes_, largest);
   return {index};
 }
 
@@ -127,6 +129,7 @@ void SceneBodies::reserve(std::size_t bodies) {
 void SceneBodies::follow(const SceneBodies& other, std::span<const std::uint32_t> changed) {
   shapes_.insert(shapes_.end(), other.shapes_.begin() + static_cast<std::ptrdiff_t>(shapes_.size()),
                  other.shapes_.end());
+  largest_of_shapes_ = other.largest_of_shapes_;
   if (bodies_.size() < other.bodies_.size()) bodies_.resize(other.bodies_.size());
   for (const std::uint32_t index : changed) {
     PlacedBody& own = bodies_[index];

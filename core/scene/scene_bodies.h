@@ -61,6 +61,8 @@ class SceneBodies {
   const Aabb& bounds_of(const PlacedBody& body) const noexcept { return shapes_[body.shape].bounds; }
   std::size_t size() const noexcept { return count_; }
   std::size_t shapes() const noexcept { return shapes_.size(); }
+  /// Returns the largest coordinate of all shapes, each in its own frame.
+  double largest_of_shapes() const noexcept { return largest_of_shapes_; }
   const BodyTree& tree() const noexcept { return tree_; }
   std::size_t bytes() const noexcept;
 
@@ -102,6 +104,7 @@ class SceneBodies {
   std::vector<PlacedBody> bodies_;
   std::vector<std::uint32_t> free_;  ///< a heap, the lowest on top
   BodyTree tree_;
+  double largest_of_shapes_ = 0;
   std::size_t count_ = 0;
   std::uint64_t additions_ = 0, removals_ = 0, moves_ = 0;
   double motion_ = 0;

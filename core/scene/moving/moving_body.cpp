@@ -28,16 +28,14 @@ struct TurnSeries {
 };
 
 /// The rotation by |turn| about it (Rodrigues).
-Eigen::Matrix3d rotation_by(const Vec3& turn) noexcept {
-  const TurnSeries series(turn.squaredNorm());
+Eigen::Matrix3d rotation_by(const Vec3& turn, const TurnSeries& series) noexcept {
   Eigen::Matrix3d cross;
   cross << 0, -turn.z(), turn.y(), turn.z(), 0, -turn.x(), -turn.y(), turn.x(), 0;
   return Eigen::Matrix3d::Identity() + series.first * cross + series.second * (cross * cross);
 }
 
 /// How far a point goes whose velocity is `shift` at first and turns by `turn`.
-Vec3 way_by(const Vec3& turn, const Vec3& shift) noexcept {
-  const TurnSeries series(turn.squaredNorm());
+Vec3 way_by(const Vec3& turn, const Vec3& shift, const TurnSeries& series) noexcept {
   const Vec3 across = turn.cross(shift);
   return shift + series.second * across + series.third * turn.cross(across);
 }
@@ -56,7 +54,7 @@ Vec3 shift_for(const Vec3& turn, const Vec3& way) noexcept {
 Vec3 turn_of(const Eigen::Matrix3d& rotation) noexcept {
   Vec3 turn = Vec3::Zero();
   for (int k = 0; k < 8; ++k) {  // the rest falls with its third power
-    const Eigen::Matrix3d rest = rotation * rotation_by(turn).transpose();
+    const Eigen::Matrix3d rest = rotation * rotation_by(turn, TurnSeries(turn.squaredNorm())).transpose();
     turn += 0.5 * Vec3(rest(2, 1) - rest(1, 2), rest(0, 2) - rest(2, 0), rest(1, 0) - rest(0, 1));
   }
   return turn;
@@ -87,8 +85,19 @@ MovingBody::MovingBody(const BodyId& body, const Pose& before, const Pose& after
 }
 
 Pose MovingBody::at(double time) const noexcept {
-  const Vec3 turn = time * turn_;
-  return {rotation_by(turn) * before_.rotation, before_.translation + way_by(turn, time * shift_)};
+  const Vec3 turn = time * turn_, shift = time * shift_;
+  const double squared = turn.squaredNorm();
+  if (squared == 0) return {before_.rotation, before_.translation + shift};
+  const TurnSeries series(squared);
+  return {rotation_by(turn, series) * before_.rotation, before_.translation + way_by(turn, shift, series)};
+}
+
+bool MovingBody::is_beyond(const Sweep& sweep, double extent) const noexcept {
+  // The origin goes at one speed, and no point of the shape leaves the ball about it.
+  const double apart = (sweep.from - before_.translation).norm();
+  const double nearer = (sweep.to - sweep.from).norm() + shift_.norm() + shift_error_ + turn_error_ * extent;
+  const double rounding = 4 * unit_roundoff * (sweep.from.norm() + before_.translation.norm());
+  return apart < infinity && apart > (nearer + extent + sweep.radius + rounding) * (1 + 0x1p-40);
 }
 
 Vec3 MovingBody::carried(const Vec3& point, const TickPart& part) const noexcept {

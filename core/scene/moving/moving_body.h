@@ -28,6 +28,10 @@ class MovingBody {
   /// Bounds how far the way of a point that is carried is off the straight line between its ends.
   double sagitta(const Vec3& point, const TickPart& part) const noexcept;
 
+  /// Returns true if no point of the shape comes within the sweep's radius in any part of the tick, as far as
+  /// the ball of `extent` about the body's origin tells.
+  bool is_beyond(const Sweep& sweep, double extent) const noexcept;
+
   /// A straight way in the body's frame. The probe comes no nearer to the moving shape than a ball on this
   /// way comes to the shape at rest, but for `sagitta` and `rounding`.
   struct Chord {

@@ -21,30 +21,40 @@ namespace touchmark {
 template <AnswersSweep D>
 class MovingSweep {
  public:
-  MovingSweep(const MovingBody& moving, const Aabb& bounds, const Sweep& sweep, const TickPart& part) noexcept
+  /// Asks about the sweep up to the fraction `limit`.
+  MovingSweep(const MovingBody& moving, const Aabb& bounds, const Sweep& sweep, const TickPart& part,
+              double limit) noexcept
       : moving_(moving),
         bounds_(bounds),
-        extent_(bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).norm()),
+        extent_(extent_of(bounds)),
         sweep_(sweep),
-        part_(part) {}
+        part_(part),
+        limit_(limit),
+        whole_(moving.chord(sweep, part, 0, limit, extent_)) {}
 
-  /// Returns true if the body's bounds are surely farther all the way up to this fraction.
-  bool is_beyond_bounds(double limit) const noexcept {
-    const auto [in_frame, chord] = asked(0, limit);
+  /// Returns a length that no corner of the bounds exceeds.
+  static double extent_of(const Aabb& bounds) noexcept {
+    return bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).norm();
+  }
+
+  /// Returns true if the body's bounds are surely farther all the way.
+  bool is_beyond_bounds() const noexcept {
+    const Sweep in_frame = asked(whole_);
     const Vec3 middle = in_frame.from + 0.5 * (in_frame.to - in_frame.from);
     const double half = (in_frame.to - in_frame.from).norm() / 2;
     return std::sqrt(bounds_.squared_distance(middle)) > (in_frame.radius + half) * (1 + 0x1p-40);
   }
 
-  /// Returns the first touch up to this fraction, or a place before where the gap is below the bound.
-  std::optional<Impact> first_hit(const Shape<D>& shape, double limit, typename D::Session& session,
+  /// Returns the first touch, or a place before where the gap is below the bound.
+  std::optional<Impact> first_hit(const Shape<D>& shape, typename D::Session& session,
                                   LimitedWork& work) const noexcept {
     const double good = good_sagitta * moving_.relative_way(sweep_, part_);
-    double begin = 0, length = limit;
-    while (begin < limit) {
-      const double end = std::min(begin + length, limit);
-      const auto [in_frame, chord] =
-          asked(begin, end, shape.is_round() ? Accuracy() : shape.detector->accuracy());
+    double begin = 0, length = limit_;
+    while (begin < limit_) {
+      const double end = std::min(begin + length, limit_);
+      const MovingBody::Chord chord =
+          begin == 0 && end == limit_ ? whole_ : moving_.chord(sweep_, part_, begin, end, extent_);
+      const Sweep in_frame = asked(chord, shape.is_round() ? Accuracy() : shape.detector->accuracy());
       if (!(in_frame.radius < infinity)) return Impact{begin, {}};
       const std::optional<Impact> hit =
           shape.is_round() ? RoundBody(shape, PlacedBody(), 0, in_frame.from).first_hit(in_frame, work)
@@ -66,18 +76,13 @@ class MovingSweep {
   static constexpr double good_sagitta = 0x1p-20;  ///< as a part of the probe's way in the body's frame
   static constexpr double shortest = 0x1p-12;      ///< no shorter part of the sweep can need to be halved
 
-  struct Asked {
-    Sweep in_frame;
-    MovingBody::Chord chord;
-  };
   /// A detector that does not decide exactly may be off by its error.
-  Asked asked(double begin, double end, const Accuracy& accuracy = {}) const noexcept {
-    const MovingBody::Chord chord = moving_.chord(sweep_, part_, begin, end, extent_);
+  Sweep asked(const MovingBody::Chord& chord, const Accuracy& accuracy = {}) const noexcept {
     const double error = accuracy.decides_exactly ? 0
                                                   : std::max(distance_error(accuracy, bounds_, chord.from),
                                                              distance_error(accuracy, bounds_, chord.to));
     const double radius = sweep_.radius + chord.sagitta + chord.rounding + error;
-    return {{chord.from, chord.to, radius * (1 + 4 * unit_roundoff)}, chord};
+    return {chord.from, chord.to, radius * (1 + 4 * unit_roundoff)};
   }
   /// The contact in the scene, where body and probe are then.
   Impact told(const Impact& hit, double fraction) const noexcept {
@@ -94,6 +99,8 @@ class MovingSweep {
   double extent_;
   const Sweep& sweep_;
   const TickPart& part_;
+  double limit_;
+  MovingBody::Chord whole_;
 };
 
 template <BodyDetector D>
@@ -110,14 +117,16 @@ std::optional<BodyImpact> Scene<D>::first_hit_moving(
     if (&body == left_out || !bodies_.has(body.body())) continue;
     const std::uint32_t index = body.body().index;
     const PlacedBody& placed = bodies_[index];
-    const MovingSweep<D> swept(body, bodies_.bounds_of(placed), sweep, part);
-    const double limit = first.impact ? first.impact->fraction : 1;
+    const Aabb& bounds = bodies_.bounds_of(placed);
     ++session.work.bodies;
-    if (swept.is_beyond_bounds(limit)) continue;
+    if (body.is_beyond(sweep, MovingSweep<D>::extent_of(bounds))) continue;
+    const double limit = first.impact ? first.impact->fraction : 1;
+    const MovingSweep<D> swept(body, bounds, sweep, part, limit);
+    if (swept.is_beyond_bounds()) continue;
     ask(NearBodies::room + placed.shape % NearBodies::unlisted_room, index,
         bodies_.seen_from(index, sweep.from), session,
         [&](const Shape<D>& shape, std::uint32_t, const SeenBody&, typename D::Session& own) {
-          const std::optional<Impact> hit = swept.first_hit(shape, limit, own, session.work);
+          const std::optional<Impact> hit = swept.first_hit(shape, own, session.work);
           if (hit) first.take(*hit, index);
           return unknown;
         });
