@@ -293,7 +293,11 @@ std::optional<bool> PathGap::touches_until(double fraction) const noexcept {
   const double start = plane.value - plane.value_error;
   const double end = start - 2 * fraction * (plane.fall + plane.fall_error);
   if (start > 0 && end > 0x1p-50 * start) return false;
-  return touches_at(fraction) == true ? std::optional(true) : std::nullopt;
+  // Where it ends, and where it passes the middle of the corners.
+  const Vec3 past_middle = (start_[0] + start_[1] + start_[2]) / 3;
+  const double passes = length_ > 0 ? -past_middle.dot(path_) / (length_ * length_) : 0;
+  if (touches_at(fraction) == true || touches_at(std::clamp(passes, 0.0, fraction)) == true) return true;
+  return std::nullopt;
 }
 
 std::optional<double> PathGap::precise_touch(double fraction) const noexcept {

@@ -113,8 +113,8 @@ class Proxy {
       for (int eighths = known_eighths_; !moving_.empty() && !is_carried(eighths, session);) --eighths;
       moving_ = {};
     }
-    if constexpr (requires { detector_->largest_of_shapes(); })
-      motion_.set_surface_size(detector_->largest_of_shapes());
+    if constexpr (requires { largest_of_shapes(*detector_); })
+      motion_.set_surface_size(largest_of_shapes(*detector_));
     if (!motion_.begin(goal)) return motion_.state();
     work_ = coupling().max_work > 0 ? limited_work(session) : nullptr;
     if (work_ != nullptr) {

@@ -94,8 +94,7 @@ class BodySweep {
   }
   bool may_meet(const ImageCandidate& image, const Vec3& seen_from, LimitedWork& work) const noexcept {
     if (work.exceeds_limit()) return true;
-    std::optional<bool> known;
-    if (sweep_.radius == 0) known = meets_by_sides(image.posed, sweep_.from, sweep_.to);
+    std::optional<bool> known = within_by_sides(image.posed, sweep_.from, sweep_.to, sweep_.radius);
     if (!known) known = comes_within_rounded(image, seen_from, sweep_, work.exact_decisions);
     if (known) return *known;
     ++work.exact_decisions;

@@ -110,7 +110,8 @@ bool path_within_exactly(const PosedTriangle& triangle, const Vec3& from, const 
          reaches_the_surface({path.w[0] - path.path, path.w[1] - path.path, path.w[2] - path.path});
 }
 
-std::optional<bool> meets_by_sides(const PosedTriangle& triangle, const Vec3& from, const Vec3& to) noexcept {
+std::optional<bool> within_by_sides(const PosedTriangle& triangle, const Vec3& from, const Vec3& to,
+                                    double radius) noexcept {
   using double_double::cross, double_double::dot;
   using SeenFromStart = double_double::Vector;
   const SeenFromStart way = double_double::difference(to, from);
@@ -135,9 +136,9 @@ std::optional<bool> meets_by_sides(const PosedTriangle& triangle, const Vec3& fr
     }
   }
   const double error = 0x1p-100 * terms;
-  if (!(std::max(terms, largest) < 0x1p300 && largest > std::max(0x1p-200, 0x1p10 * error)))
+  if (!(std::max({terms, largest, radius}) < 0x1p300 && largest > std::max(0x1p-200, 0x1p10 * error)))
     return std::nullopt;
-  const double bound = largest * largest * (20 * error + 0x1p-94 * largest);
+  const double bound = largest * (largest + 2 * radius) * (20 * error + 0x1p-94 * largest);
   const auto sign = [bound](const DoubleDouble& x, double times) {
     return x.high > times * bound ? 1 : x.high < -times * bound ? -1 : 0;
   };
@@ -145,7 +146,21 @@ std::optional<bool> meets_by_sides(const PosedTriangle& triangle, const Vec3& fr
   const DoubleDouble start = -dot(corner[0], opposite);
   const std::array<DoubleDouble, 3> edge = {dot(way, cross(corner[0], corner[1])), dot(way, opposite),
                                             dot(way, cross(corner[2], corner[0]))};
-  const int before = sign(start, 1), after = sign(edge[0] + edge[1] + edge[2] + start, 5);
+  const DoubleDouble end = edge[0] + edge[1] + edge[2] + start;
+  if (radius > 0) {
+    SeenFromStart one, other;
+    for (std::size_t k = 0; k < 3; ++k) {
+      one[k] = corner[1][k] - corner[0][k];
+      other[k] = corner[2][k] - corner[0][k];
+    }
+    const SeenFromStart normal = cross(one, other);
+    const DoubleDouble reach = square_root(dot(normal, normal)) * DoubleDouble{radius};
+    const bool below = start.high < 0;
+    const bool apart =
+        sign((below ? -start : start) - reach, 1) > 0 && sign((below ? -end : end) - reach, 5) > 0;
+    return apart ? std::optional(false) : std::nullopt;
+  }
+  const int before = sign(start, 1), after = sign(end, 5);
   if (before * after > 0) return false;
   const auto [least, most] = std::minmax({sign(edge[0], 1), sign(edge[1], 1), sign(edge[2], 1)});
   if (least < 0 && most > 0) return false;

@@ -2,7 +2,7 @@
 ///
 /// A corner's image is rotation * x + translation, a polynomial of degree 2 in stored doubles, so that the
 /// decisions are those of core/exact/exact_closest_point.h at twice the degree. No memory is taken. A call
-/// takes ten microseconds or more, for what doubles leave open; meets_by_sides takes less, and may not tell.
+/// takes ten microseconds or more, for what doubles leave open; within_by_sides takes less, and may not tell.
 #pragma once
 
 #include <compare>
@@ -32,9 +32,11 @@ bool within_exactly(const PosedTriangle& triangle, const Vec3& point, double rad
 bool path_within_exactly(const PosedTriangle& triangle, const Vec3& from, const Vec3& to, double fraction,
                          double radius) noexcept;
 
-/// What path_within_exactly says of the whole path where all radii are 0, by the sides of the plane and of
-/// the path's line in double-double (docs/exactness.md, E30). Nothing where these leave it open.
-std::optional<bool> meets_by_sides(const PosedTriangle& triangle, const Vec3& from, const Vec3& to) noexcept;
+/// What path_within_exactly says of the whole path where the triangle's own radius is 0, by the sides of the
+/// plane and, for a bare point, of the path's line in double-double (docs/exactness.md, E30). Nothing where
+/// these leave it open.
+std::optional<bool> within_by_sides(const PosedTriangle& triangle, const Vec3& from, const Vec3& to,
+                                    double radius) noexcept;
 
 /// Is the point nearer to the axis than the surface is? Exact, for finite numbers.
 bool lies_inside(const PosedTriangle& triangle, const Vec3& point) noexcept;

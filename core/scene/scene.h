@@ -118,7 +118,7 @@ class Scene {
   /// Returns how many bodies there are.
   std::size_t size() const noexcept { return bodies_.size(); }
   /// Returns the largest coordinate of all shapes, each in its own frame: numbers that rounding depends on.
-  double largest_of_shapes() const noexcept { return bodies_.largest_of_shapes(); }
+  friend double largest_of_shapes(const Scene& scene) noexcept { return scene.bodies_.largest_of_shapes(); }
   /// Returns how many shapes are built.
   std::size_t shapes_built() const noexcept { return shapes_.count_built(); }
 

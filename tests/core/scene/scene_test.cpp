@@ -77,6 +77,31 @@ TEST(Scene, SweepsOfBarePointsTakeHardlyAnyWholeNumbers) {
   EXPECT_LT(session.work.exact_decisions, 10U);
 }
 
+/// Over 200 triangles of one plane, at a height that doubles hardly tell from the radius.
+TEST(Scene, ABallThatSlidesAlongABodyTakesHardlyAnyWholeNumbers) {
+  constexpr std::uint32_t n = 10;
+  constexpr double radius = 0.25;
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> faces;
+  for (std::uint32_t y = 0; y <= n; ++y)
+    for (std::uint32_t x = 0; x <= n; ++x) {
+      vertices.emplace_back(x / 10.0, y / 10.0, 0);
+      if (x == n || y == n) continue;
+      const std::uint32_t corner = y * (n + 1) + x;
+      faces.push_back({corner, corner + 1, corner + n + 1});
+      faces.push_back({corner + 1, corner + n + 2, corner + n + 1});
+    }
+  Scene<SphereCluster> scene;
+  scene.add(scene.add_shape(Shape<SphereCluster>::build(TriangleMesh(vertices, faces))), at(1, 2, 0));
+  for (const auto& [height, expected] :
+       {std::pair{radius, true}, std::pair{std::nextafter(radius, 1), false}}) {
+    Scene<SphereCluster>::Session session;
+    const Sweep sweep{{1.05, 2.43, height}, {1.91, 2.56, height}, radius};
+    EXPECT_EQ(scene.first_hit(sweep, session).has_value(), expected);
+    EXPECT_LT(session.work.exact_decisions, 10U) << height;
+  }
+}
+
 TEST(Scene, FollowsBodiesThatMoveAndForgetsThoseRemoved) {
   Scene<BruteForce> scene;
   const ShapeId shape = scene.add_shape(Shape<BruteForce>::build(square()));
