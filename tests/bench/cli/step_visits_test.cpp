@@ -298,5 +298,14 @@ TEST_F(StepVisits, OfAnEarlierRunAreTakenAway) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() + "/visited.json"));
 }
 
+TEST(WithoutATemporaryFolder, NothingIsSaidOfWhatADetectorLookedAt) {
+  const Outcome outcome = run_program_at({"/usr/bin/env", "TMPDIR=/proc", TOUCHMARK_PROGRAM, "query",
+                                          "--mesh", "cube", "--detector", "aabb-tree", "--visits", "0"});
+  EXPECT_EQ(outcome.status, 3) << outcome.out;
+  EXPECT_NE(outcome.err.find("in /proc: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("set TMPDIR"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+}
+
 }  // namespace
 }  // namespace touchmark::bench::cli
