@@ -129,7 +129,7 @@ class StepVisits : public testing::Test {
     folder.file("results.csv", results());
     return run_touchmark({"validate", folder.file("visited.json", damaged.dump())});
   }
-  static const Json& row(const std::string& detector) {
+  static const Json& row(const char* detector) {
     for (const Json& one : visited().at("rows"))
       if (one.at("detector") == detector) return one;
     ADD_FAILURE() << "no row of " << detector;
