@@ -27,12 +27,12 @@ bool exceeds(double value, double margin, double square) noexcept {
   return value > 0 && value * value > margin * margin * square;
 }
 
-/// Returns the first zero of value - 2 fall x + curve x^2, what is under the root raised by a part of it;
+/// Returns the first zero of value - 2 fall x + curve x^2, what is under the root raised by a part of fall^2;
 /// infinite where there is none.
 double first_root(double value, double fall, double curve, double raised) noexcept {
-  const double root = (1 + raised) * fall * fall - curve * value;
-  if (!(fall > 0) || !(root >= 0)) return infinity;
-  return value / (fall + std::sqrt(root));
+  if (!(fall > 0)) return infinity;
+  const double part = value / fall, root = 1 + raised - curve / fall * part;  // no square is out of range
+  return root >= 0 ? part / (1 + std::sqrt(root)) : infinity;
 }
 
 /// Returns where a linear function is zero that is `start` at 0 and `end` at 1, each off by less than
@@ -213,7 +213,8 @@ bool PathGap::is_nearest(Nearest feature, const Corners& to) const noexcept {
   if (feature.corners == 3) return is_over_face(to);
   const double along = -to[i].dot(edge_[i]);
   if (feature.corners == 2)
-    return !beyond(i, along) && !beyond(i, to[next].dot(edge_[i])) && !beyond(i, to[i].dot(side_[i]));
+    return squared_edge_[i] > 0 && !beyond(i, along) && !beyond(i, to[next].dot(edge_[i])) &&
+           !beyond(i, to[i].dot(side_[i]));
   return (beyond(i, along) || squared_edge_[i] == 0) &&
          (beyond(last, to[i].dot(edge_[last])) || squared_edge_[last] == 0);
 }

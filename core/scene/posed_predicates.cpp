@@ -136,7 +136,7 @@ std::optional<bool> within_by_sides(const PosedTriangle& triangle, const Vec3& f
     }
   }
   const double error = 0x1p-100 * terms;
-  if (!(std::max({terms, largest, radius}) < 0x1p300 && largest > std::max(0x1p-200, 0x1p10 * error)))
+  if (!(std::max({terms, largest, radius}) < 0x1p230 && largest > std::max(0x1p-200, 0x1p10 * error)))
     return std::nullopt;
   const double bound = largest * (largest + 2 * radius) * (20 * error + 0x1p-94 * largest);
   const auto sign = [bound](const DoubleDouble& x, double times) {
