@@ -28,10 +28,10 @@ bool exceeds(double value, double margin, double square) noexcept {
 }
 
 /// Returns the first zero of value - 2 fall x + curve x^2, what is under the root raised by a part of fall^2;
-/// infinite where there is none.
+/// infinite where there is none. The square of `fall` itself would overflow for coordinates beyond 2^170.
 double first_root(double value, double fall, double curve, double raised) noexcept {
   if (!(fall > 0)) return infinity;
-  const double part = value / fall, root = 1 + raised - curve / fall * part;  // no square is out of range
+  const double part = value / fall, root = 1 + raised - curve / fall * part;
   return root >= 0 ? part / (1 + std::sqrt(root)) : infinity;
 }
 

@@ -282,9 +282,7 @@ TEST(SphereTriangleSweep, TheFractionIsNeverLateAndEarlyByLessThanFourUnitsInThe
   RandomCases random(13);
   int hits = 0, grazes = 0;
   for (int trial = 0; trial < 12000; ++trial) {
-    const double scale = std::ldexp(1, trial % 11 == 0   ? 400
-                                       : trial % 11 == 1 ? 190
-                                                         : trial % 7 * 40 - 120),
+    const double scale = std::ldexp(1, trial % 11 == 0 ? 400 : trial % 9 * 40 - 120),
                  offset = trial % 5 * trial % 5 * 1e4;
     const Vec3 far = offset * random.point();
     const auto placed = [&](const Vec3& point) -> Vec3 { return scale * (point + far); };

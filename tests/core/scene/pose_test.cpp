@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/scene/posed_predicates.h"
+
 namespace touchmark {
 namespace {
 
@@ -67,6 +69,18 @@ TEST(Pose, TakesWhatRoundingLeavesOfAMillionRotations) {
   for (int i = 0; i < 1'000'000; ++i) pose.rotation = (step.rotation * pose.rotation).eval();
   EXPECT_EQ(refusal(pose), "");
   EXPECT_NE(pose.rotation.transpose() * pose.rotation, Eigen::Matrix3d::Identity());
+}
+
+/// At its end the ball's centre is (2, 2, 1) from a corner, which is the radius.
+TEST(PosedTriangle, IsNotSaidToBeMissedWhereSquaresAreBeyondTheRangeOfDouble) {
+  const Pose rest;
+  for (const double unit : {1.0, 0x1p240, 0x1p255, 0x1p285}) {
+    const PosedTriangle triangle{{Vec3(0, 0, unit), Vec3(0, 0, -unit), Vec3(3 * unit, -3 * unit, -unit)},
+                                 &rest};
+    const Vec3 from = unit * Vec3(1, 4, 3), to = unit * Vec3(2, 2, 2);
+    EXPECT_NE(within_by_sides(triangle, from, to, 3 * unit), false) << unit;
+    EXPECT_TRUE(path_within_exactly(triangle, from, to, 1, 3 * unit)) << unit;
+  }
 }
 
 }  // namespace
